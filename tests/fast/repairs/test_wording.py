@@ -45,7 +45,8 @@ def test_one_of_two_similar_names_is_used_everywhere() -> None:
 def test_the_definition_of_a_variant_is_removed_from_the_dsl() -> None:
     text = (
         "def_start\n  event Called\n  event Photo\n  event Bell\n  event TakePhoto as system // once\n"
-        "  event TakePhotos\ndef_end\nrule_start\n  R1 when Called then TakePhotos\n  TakePhoto when Photo then TakePhoto\n"
+        "  event TakePhotos\ndef_end\nrule_start\n"
+        "  R1 when Called then TakePhotos\n  TakePhoto when Photo then TakePhoto\n"
         "  R3 when Bell then TakePhotos\nrule_end\n"
     )
     defined = text.replace("  event TakePhoto as system // once\n", "")
