@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterator, Mapping
 from sleec_runtime.model import Ruleset
 from sleec_verify.checks.misread_names import MISREAD_NAME
 from sleec_verify.repairs.operators.assumptions import assumptions
-from sleec_verify.repairs.operators.bounds import bounds
+from sleec_verify.repairs.operators.bounds import bounds, operators
 from sleec_verify.repairs.operators.chains import readings, silences
 from sleec_verify.repairs.operators.concerns import preventions
-from sleec_verify.repairs.operators.corrections import events, labels, values, windows
+from sleec_verify.repairs.operators.corrections import constrained, definitions, events, labels, values, windows
 from sleec_verify.repairs.operators.deadlines import deadlines
 from sleec_verify.repairs.operators.decomposition import decompositions
 from sleec_verify.repairs.operators.giving_way import exceptions, guards, refinements, responses
@@ -49,9 +49,8 @@ REMOVALS: Mapping[str, Operation] = {
 }
 """Removal of what has no effect."""
 
-CONSEQUENCES: Mapping[str, Operation] = {**REMOVALS, "SLEEC107": agents, "SLEEC509": rules}
-"""What a change may make necessary: if no rule requires an act any more, its declaration says that it is one. Of two
-rules that are equal now, one goes."""
+CONSEQUENCES: Mapping[str, Operation] = {**REMOVALS, "SLEEC107": agents}
+"""What a change may make necessary: if no rule requires an act any more, its declaration says that it is one."""
 
 OPERATORS: Mapping[str, tuple[Operation, ...]] = {
     "SLEEC101": _WHO_GIVES_WAY,
@@ -60,13 +59,17 @@ OPERATORS: Mapping[str, tuple[Operation, ...]] = {
     "SLEEC105": (relaxations, rules),
     "SLEEC107": (agents, responses, hedges, redundant_rule),
     **{code: (removal,) for code, removal in REMOVALS.items()},
-    "SLEEC202": (orders, hedges),
+    "SLEEC201": (operators, rules),
+    "SLEEC202": (orders, hedges, operators),
     "SLEEC401": (readings,),
+    "SLEEC502": (constrained,),
     "SLEEC503": (silences,),
     "SLEEC506": (labels,),
     "SLEEC507": (values,),
     "SLEEC508": (values,),
     "SLEEC510": (preventions, events),
+    "SLEEC512": (operators,),
     "SLEEC513": (windows,),
+    "SLEEC519": (definitions,),
     **{kind.code: (names,) for kind in MISREAD_NAME.kinds},
 }

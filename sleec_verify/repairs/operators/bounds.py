@@ -1,7 +1,7 @@
-"""Repairs of a conflict by another bound or operator: two comparisons of one measure no longer overlap.
+"""Corrections of comparisons: another bound in a conflict, and another operator in a condition that has no effect.
 
-``x <= 10`` becomes ``x < 10`` beside ``x >= 10``, and ``x > 50`` becomes ``x >= 60`` beside ``x < 60``: the negation of
-the other comparison.
+In a conflict, two comparisons of one measure no longer overlap: ``x <= 10`` becomes ``x < 10`` beside ``x >= 10``, and
+``x > 50`` becomes ``x >= 60`` beside ``x < 60``, the negation of the other comparison.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
-from sleec_runtime.model import Comparison, MeasureRef, Operator, Rule, Ruleset
+from sleec_runtime.model import Comparison, MeasureRef, Operator, Rule, Ruleset, formulas_of, leaves
 from sleec_verify.encoding.equation import guard
 from sleec_verify.repairs.operators.claim_cases import parts_of
 from sleec_verify.repairs.repair import Candidate
@@ -19,6 +19,7 @@ from sleec_verify.results.finding import Finding
 from sleec_verify.results.phrases import quoted
 
 _NEGATION: Mapping[Operator, Operator] = {"<": ">=", "<=": ">", ">=": "<", ">": "<="}
+_SAME_SIDE: Mapping[Operator, Operator] = {"<": "<=", "<=": "<", ">=": ">", ">": ">="}
 
 
 class _Bound(NamedTuple):
@@ -52,6 +53,21 @@ def _bounds(ruleset: Ruleset, finding: Finding) -> Iterator[_Bound]:
         for part in parts_of(guard(rule, ruleset.reading, number)):
             if isinstance(part, Comparison) and part.operator in _NEGATION and isinstance(part.left, MeasureRef):
                 yield _Bound(rule, part)
+
+
+def operators(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
+    """The bound itself counts, or no longer, or the comparison is the other way round."""
+    for label in finding.rules:
+        rule = ruleset.by_label[label]
+        is_whole_rule = finding.span == rule.heading_span
+        start, end = rule.guard.span if is_whole_rule and rule.guard is not None else finding.span
+        for leaf in (leaf for formula in formulas_of(rule) for leaf in leaves(formula)):
+            if isinstance(leaf, Comparison) and leaf.operator in _NEGATION and start <= leaf.span.start < end:
+                same_side = _SAME_SIDE[leaf.operator]
+                for operator in (same_side, _NEGATION[same_side]):
+                    text, old = _text(ruleset, replace(leaf, operator=operator)), _text(ruleset, leaf)
+                    title = f"write {quoted(text)} for {quoted(old)} in rule {quoted(label)}"
+                    yield Candidate("correction", title, replaced(leaf.span, text))
 
 
 def _text(ruleset: Ruleset, comparison: Comparison) -> str:

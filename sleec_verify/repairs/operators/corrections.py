@@ -4,12 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from sleec_runtime.model import Claim, Comparison, Formula, MeasureRef, Rule, Ruleset, ScaleValue, formulas_of, leaves
+from sleec_runtime.model import (
+    Claim,
+    Comparison,
+    Formula,
+    MeasureRef,
+    Rule,
+    Ruleset,
+    ScaleValue,
+    Span,
+    formulas_of,
+    leaves,
+    literals,
+)
 from sleec_runtime.support.suggestions import nearest
 from sleec_verify.encoding.name_uses import events_of_rules, formulas_beside_rules
 from sleec_verify.repairs.edit import TextEdit
 from sleec_verify.repairs.repair import Candidate
-from sleec_verify.repairs.statement_edits import replaced, without
+from sleec_verify.repairs.statement_edits import indent_at, replaced, without
 from sleec_verify.repairs.statement_insertion import new_label
 from sleec_verify.results.finding import Finding
 from sleec_verify.results.phrases import quoted
@@ -59,6 +71,25 @@ def events(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
         if isinstance(claim, Claim) and claim.kind == "purpose" and claim.label in finding.obligations:
             title = f"remove the purpose {quoted(claim.label)}"
             yield Candidate("claim-removal", title, without(ruleset, claim.span))
+
+
+def constrained(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
+    """A constraint names an obligation of a rule instead of one that no rule has."""
+    required = {one.name for rule in ruleset.rules for clause in rule.clauses() for one in literals(clause)}
+    written = ruleset.source.text[slice(*finding.span)]
+    meant = nearest(written, sorted(required))
+    if meant is not None:
+        yield Candidate("renaming", f"write {quoted(meant)} for {quoted(written)}", replaced(finding.span, meant))
+
+
+def definitions(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
+    """The second definition of a name is removed, if it has a line of its own."""
+    text = ruleset.source.text
+    start = text.rfind("\n", 0, finding.span.start) + 1
+    end = text.find("\n", finding.span.end)
+    line = Span(start + len(indent_at(text, finding.span.start)), len(text) if end < 0 else end)
+    written = quoted(text[slice(*finding.span)])
+    yield Candidate("declaration-removal", f"remove the second definition of {written}", without(ruleset, line))
 
 
 def windows(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:

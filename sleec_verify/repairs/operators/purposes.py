@@ -10,17 +10,21 @@ from collections.abc import Iterator
 from sleec_runtime.model import Claim, Obligation, Rule, Ruleset
 from sleec_verify.repairs.operators.claim_cases import giving_way, where
 from sleec_verify.repairs.repair import Candidate
-from sleec_verify.repairs.statement_edits import exception_text, formula_text
+from sleec_verify.repairs.statement_edits import exception_text, formula_text, without
 from sleec_verify.results.finding import Finding
 from sleec_verify.results.phrases import clause_name, quoted
 
 
 def relaxations(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
-    """A condition or an exception with the situation of the purpose in a rule that blocks it."""
+    """A condition or an exception with the situation of the purpose in a rule that blocks it. A purpose that no rule
+    blocks contradicts itself; it is removed."""
     for purpose in ruleset.statements:
         if isinstance(purpose, Claim) and purpose.kind == "purpose" and purpose.label in finding.obligations:
             for label in finding.rules:
                 yield from _of(ruleset, ruleset.by_label[label], purpose)
+            if not finding.rules:
+                title = f"remove the purpose {quoted(purpose.label)}"
+                yield Candidate("claim-removal", title, without(ruleset, purpose.span))
 
 
 def _of(ruleset: Ruleset, rule: Rule, purpose: Claim) -> Iterator[Candidate]:

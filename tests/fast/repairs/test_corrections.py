@@ -71,3 +71,46 @@ def test_the_robot_causes_a_forbidden_event(before: str, after: str) -> None:
 def test_what_forbids_an_input_is_removed() -> None:
     rules = "WHEN Sleep THEN Lock AND NOT Ring\n\nWHEN Ring THEN Open\n"
     assert rules.replace(" AND NOT Ring", "") in texts_after(rules, repairs_of(rules, "SLEEC107"))
+
+
+COMPARED = """MEASURE age: number
+MEASURE risk: low < middle < high
+WHEN Call AND age > 18 AND age {0} 65 THEN Answer // adults
+
+WHEN Stop THEN Wait
+UNLESS risk {1} low IN WHICH CASE Ask
+
+WHEN Sleep AND (age <= 3 OR age {2} 3) THEN Rest
+"""
+
+
+@pytest.mark.parametrize(
+    ("code", "wrong", "repaired"),
+    [
+        ("SLEEC201", ("< 9 AND age <", ">", ">="), ("> 9 AND age <", ">", ">=")),
+        ("SLEEC202", ("<", "<", ">="), ("<", "<=", ">=")),
+        ("SLEEC202", ("<", "<", ">="), ("<", ">", ">=")),
+        ("SLEEC512", ("<", ">", ">"), ("<", ">", "<")),
+    ],
+)
+def test_another_operator_has_an_effect(code: str, wrong: tuple[str, ...], repaired: tuple[str, ...]) -> None:
+    changed = texts_after(COMPARED.format(*wrong), repairs_of(COMPARED.format(*wrong), code))
+    assert COMPARED.format(*repaired) in changed
+
+
+def test_a_constraint_names_an_obligation_of_a_rule() -> None:
+    text = "EXCLUSIVE Answer, StaySilennt\nASSUME NOT (Call AND Sleep)\n"
+    text += "WHEN Call THEN Answer\nWHEN Sleep THEN StaySilent\n"
+    assert text.replace("nnt", "nt") in texts_after(text, repairs_of(text, "SLEEC502"))
+
+
+def test_a_second_definition_is_removed() -> None:
+    again = DSL.replace("  event Beep\n", "  event Beep // short\n  event Call // again\n")
+    assert texts_after(again, repairs_of(again, "SLEEC519")) == [again.replace("  event Call // again\n", "")]
+    on_one_line = DSL.replace("  event Beep\n", "  event Beep event Call\n")
+    assert texts_after(on_one_line, repairs_of(on_one_line, "SLEEC519")) == []
+
+
+def test_a_purpose_that_contradicts_itself_is_removed() -> None:
+    text = DSL.replace("while Call", "while not Fall")
+    assert DSL.replace("  p1 exists Fall while Call\n", "") in texts_after(text, repairs_of(text, "SLEEC105"))
