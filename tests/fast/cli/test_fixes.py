@@ -10,7 +10,6 @@ from typing import Any
 import pytest
 
 from sleec_verify.repairs.verification import Rejected, Verification
-from sleec_verify.report import FORMATS
 from tests.support.cli import Cli
 from tests.support.fixes import CONFLICT, DEAD, changed, findings
 from tests.support.formats import VALIDATOR
@@ -81,11 +80,17 @@ def test_repairs_that_cannot_be_verified_are_unknown(cli: Cli, monkeypatch: pyte
         raise Rejected("the solver gave up", undecided=True)
 
     monkeypatch.setattr(Verification, "repaired", gives_up)
-    shown = {
-        form: cli("check", "--fixes", "--format", form, "a.sleec", files={"a.sleec": CONFLICT}).out for form in FORMATS
-    }
+    options = ("check", "--fixes", "a.sleec", "--format")
+    shown = {form: cli(*options, form, files={"a.sleec": CONFLICT}).out for form in ("full", "concise", "json")}
     assert "     unknown There may be more: the solver gave up\n" in shown["full"]
     assert "none found" not in shown["full"]
     assert "a.sleec:3:1: unknown[repairs] there may be more: the solver gave up\n" in shown["concise"]
     validator("check").validate(json.loads(shown["json"]))
     assert '"repairs_unknown": "the solver gave up"' in shown["json"]
+
+
+@pytest.mark.parametrize("form", ["junit", "github", "gitlab"])
+def test_formats_without_repairs(form: str, cli: Cli) -> None:
+    ran = cli("check", "--fixes", "--format", form, "a.sleec", files={"a.sleec": CONFLICT})
+    assert (ran.code, ran.out) == (2, "")
+    assert "--fixes needs --format full, concise, json or sarif" in ran.err
