@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from sleec_runtime import Sleec
+from sleec_runtime import Monitor, Sleec
 from sleec_runtime.errors import LanguageError
 from sleec_runtime.language import parse, print_ruleset
 from sleec_runtime.model import Never
@@ -144,3 +144,17 @@ def test_the_robot_follows_it_at_every_trigger() -> None:
 def test_no_rule_needs_what_never_forbids_alone() -> None:
     assert not findings(f"NEVER shout UNLESS the alarm rings\n{RULES}", "unused-name")
     assert len(findings(f"NEVER shout AND answer UNLESS the alarm rings\n{RULES}", "unused-name")) == 1
+
+
+def test_the_monitor_sees_what_never_forbids() -> None:
+    sleec = Sleec(parse("NEVER shout\nALWAYS be polite\nWHEN the user calls THEN answer\n"))
+
+    class Loud:
+        def shout(self) -> None: ...
+
+    loud = Loud()
+    sleec.implement({"answer": lambda: loud.shout(), "be polite": lambda: None, "shout": loud.shout})
+    seen: list[str] = []
+    with Monitor(sleec, lambda difference: seen.append(str(difference)), watch=[loud]):
+        sleec.trigger("the user calls")
+    assert seen == ["the user calls: executed but not due: shout"]
