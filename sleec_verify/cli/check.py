@@ -54,8 +54,8 @@ _WITH_REPAIRS = ("full", "concise", "json", "sarif")
     "fix",
     metavar="[CODE:N]",
     multiple=True,
-    help="Apply the repair that --fixes lists as CODE:N, or without a value all repairs that need no decision, "
-    "because the rules mean the same. Then check again.",
+    help="Apply the repair that --fixes lists as CODE:N. Without a value, apply all repairs that need no decision: those "
+    "that change no meaning, and one spelling for variants of a name. Then check again.",
 )
 @click.option("--diff", "only_show", is_flag=True, help="With --fix: show the changes, and write nothing.")
 @options.fail_level
@@ -154,9 +154,9 @@ def _hint(outcomes: Sequence[CheckedRuleset]) -> None:
     """Tell a person at a terminal what to do about the findings."""
     found = [repair for outcome in outcomes for one in outcome.repairs or () for repair in one.repairs]
     if found:
-        tell(f"to apply a repair, add --fix and its name, for example --fix {found[0].identifier}")
+        tell(f"to apply a repair, add --fix and its identifier, for example --fix {found[0].identifier}")
     elif any(outcome.findings and outcome.repairs is None for outcome in outcomes):
-        tell("to list repairs, add --fixes; to decide conflict by conflict, use sleec-verify resolve")
+        tell("to list repairs, add --fixes; to resolve the conflicts one by one, run sleec-verify resolve")
 
 
 def _outcomes(

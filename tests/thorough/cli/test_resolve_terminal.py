@@ -70,8 +70,8 @@ def terminal(tmp_path: Path) -> Iterator[Callable[..., Terminal]]:
 
 
 def test_check_says_how_to_go_on(terminal: Callable[..., Terminal]) -> None:
-    terminal("check").until("to list repairs, add --fixes; to decide conflict by conflict, use sleec-verify resolve")
-    terminal("check", "--fixes").until("to apply a repair, add --fix and its name, for example --fix SLEEC101:1")
+    terminal("check").until("to list repairs, add --fixes; to resolve the conflicts one by one, run sleec-verify resolve")
+    terminal("check", "--fixes").until("to apply a repair, add --fix and its identifier, for example --fix SLEEC101:1")
 
 
 def test_ctrl_c_keeps_the_file_as_it_was_after_the_last_choice(
