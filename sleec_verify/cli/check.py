@@ -54,8 +54,8 @@ _WITH_REPAIRS = ("full", "concise", "json", "sarif")
     "fix",
     metavar="[CODE:N]",
     multiple=True,
-    help="Apply the repair that --fixes lists as CODE:N. Without a value, apply all repairs that need no decision: those "
-    "that change no meaning, and one spelling for variants of a name. Then check again.",
+    help="Apply the repair that --fixes lists as CODE:N. Without a value, apply all repairs that need no decision: "
+    "those that change no meaning, and one spelling for variants of a name. Then check again.",
 )
 @click.option("--diff", "only_show", is_flag=True, help="With --fix: show the changes, and write nothing.")
 @options.fail_level

@@ -70,7 +70,8 @@ def terminal(tmp_path: Path) -> Iterator[Callable[..., Terminal]]:
 
 
 def test_check_says_how_to_go_on(terminal: Callable[..., Terminal]) -> None:
-    terminal("check").until("to list repairs, add --fixes; to resolve the conflicts one by one, run sleec-verify resolve")
+    resolving = "to list repairs, add --fixes; to resolve the conflicts one by one, run sleec-verify resolve"
+    terminal("check").until(resolving)
     terminal("check", "--fixes").until("to apply a repair, add --fix and its identifier, for example --fix SLEEC101:1")
 
 
