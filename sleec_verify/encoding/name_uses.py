@@ -112,7 +112,7 @@ def mentions(ruleset: Ruleset, name: str) -> tuple[Span, tuple[str, ...]]:
 
 
 def _spans(rule: Rule, name: str) -> Iterator[Span]:
-    if rule.trigger == name:
+    if rule.trigger == name and rule.always is None:
         yield rule.trigger_span
     for clause in rule.clauses():
         yield from (o.span for o in literals(clause) if o.name == name)

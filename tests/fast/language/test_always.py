@@ -123,6 +123,13 @@ def test_a_statement_is_dead_or_redundant_as_a_whole() -> None:
     assert own.rules[0] == "rule_2"
 
 
+def test_a_trigger_is_mentioned_where_it_is_written() -> None:
+    text = "ALWAYS smile\nWHEN a THEN b\nWHEN b THEN c\n"
+    (finding,) = findings(text, "trigger-obligation")
+    assert finding.rules == ("rule_1", "rule_2")
+    assert text[finding.span.start :].startswith("b\nWHEN b")
+
+
 def findings(text, check):
     (result,) = run_checks(parse(text), [check])
     return result.findings
