@@ -84,6 +84,8 @@ class RepairSearch:
             except Rejected as rejected:
                 if rejected.undecided:
                     self.undecided = str(rejected)
+                if candidate.operator == "assumption":  # it excludes too much if something has no effect any more
+                    return None
                 step = _consequence(rejected)
                 if step is not None:
                     is_giving_way = False

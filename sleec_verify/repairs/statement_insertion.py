@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from sleec_runtime.model import Clause, Formula, Obligation, Rule, Ruleset
+import re
+
+from sleec_runtime.errors import Unsayable
+from sleec_runtime.model import RELATIONS, Clause, Formula, Obligation, Rule, Ruleset
 from sleec_verify.repairs.edit import TextEdit
 from sleec_verify.repairs.statement_edits import as_read, end_of_line, indent_at, line_break_of, printer_of
 
@@ -28,7 +31,27 @@ def with_rule_after(ruleset: Ruleset, last: Rule, lines: list[str]) -> tuple[Tex
     line_break = line_break_of(text)
     between = line_break * (1 if ruleset.syntax == "dsl" else 2)
     indent = indent_at(text, last.span.start)
-    return (TextEdit(end, end, between + line_break.join(indent + line for line in lines)),)
+    return _inserted(end, between + line_break.join(indent + line for line in lines))
+
+
+def with_relation(ruleset: Ruleset, relation: str) -> tuple[TextEdit, ...]:
+    """The text in the DSL with a relation after the last one, or in a block of its own after the rules."""
+    text = ruleset.source.text
+    line_break = line_break_of(text)
+    relations = [statement for statement in ruleset.statements if isinstance(statement, RELATIONS)]
+    if relations:
+        last = relations[-1].span
+        return _inserted(end_of_line(text, last.end), f"{line_break}{indent_at(text, last.start)}{relation}")
+    rule = ruleset.rules[-1].span
+    closing = re.compile(r"^[ \t]*rule_end\b", re.MULTILINE).search(text, rule.end)
+    if closing is None:
+        raise Unsayable("the relation has no place", "write rule_end on a line of its own")
+    lines = ("", "", "relation_start", f"{indent_at(text, rule.start)}{relation}", "relation_end")
+    return _inserted(end_of_line(text, closing.end()), line_break.join(lines))
+
+
+def _inserted(offset: int, text: str) -> tuple[TextEdit, ...]:
+    return (TextEdit(offset, offset, text),)
 
 
 def new_label(ruleset: Ruleset, stem: str) -> str:

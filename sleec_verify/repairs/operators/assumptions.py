@@ -3,31 +3,45 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TypeGuard
 
-from sleec_runtime.model import Atom, Formula, Not, Ruleset
+from sleec_runtime.model import Atom, Formula, Not, Ruleset, leaves
 from sleec_verify.encoding.equation import conjunction, guard
 from sleec_verify.repairs.operators.claim_cases import parts_of
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import formula_text
-from sleec_verify.repairs.statement_insertion import with_rule_after
+from sleec_verify.repairs.statement_insertion import with_relation, with_rule_after
 from sleec_verify.results.finding import Finding
 from sleec_verify.results.phrases import quoted
 
 
 def assumptions(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
-    """Structured English: no situation has the conditions of all clauses of the conflict.
+    """No situation has the conditions of all clauses of the conflict. Structured English writes an ASSUME, and the DSL
+    a relation of conditions, or of two events.
 
-    Events that rules require do not count, and a single trigger is not excluded.
+    Events that rules require do not count, because the robot causes them. No event or condition alone is excluded.
     """
-    if ruleset.syntax == "dsl":
-        return
     clauses = [(ruleset.by_label[label], number) for label, number in finding.clauses]
-    parts: dict[Formula, None] = {}
-    for rule, number in clauses:
-        for part in parts_of(guard(rule, ruleset.reading, number)):
-            if not (isinstance(part, Atom) and part.kind == "trigger" and part.name in ruleset.obligations):
-                parts.setdefault(part)
-    if len(parts) > 1:
+    parts = dict.fromkeys(
+        part
+        for rule, number in clauses
+        for part in parts_of(guard(rule, ruleset.reading, number))
+        if not (_is_event(part) and part.name in ruleset.obligations)
+    )
+    if ruleset.syntax == "english" and len(parts) > 1:
         line = f"ASSUME {formula_text(ruleset, Not(conjunction(list(parts))))}"
-        edits = with_rule_after(ruleset, ruleset.rules[-1], [line])
-        yield Candidate("assumption", f"add {quoted(line)}", edits)
+        yield Candidate("assumption", f"add {quoted(line)}", with_rule_after(ruleset, ruleset.rules[-1], [line]))
+    elif ruleset.syntax == "dsl":
+        events = [part.name for part in parts if _is_event(part)]
+        conditions = [part for part in parts if not any(_is_event(leaf) for leaf in leaves(part))]
+        if len(conditions) > 1 and len(conditions) + len(events) == len(parts):
+            line = f"measure invariant {formula_text(ruleset, Not(conjunction(conditions)))}"
+        elif len(events) == len(parts) == 2:
+            line = f"mutualExclusive {events[0]} {events[1]}"
+        else:
+            return
+        yield Candidate("assumption", f"add the relation {quoted(line)}", with_relation(ruleset, line))
+
+
+def _is_event(formula: Formula) -> TypeGuard[Atom]:
+    return isinstance(formula, Atom) and formula.kind == "trigger"

@@ -58,6 +58,44 @@ def test_the_situation_cannot_occur() -> None:
     assert after(text, "assumption") == [text[:-1] + assumption]
 
 
+RELATED = """def_start
+  event A
+  event B
+  event C
+  measure m: boolean
+  measure n: boolean
+def_end
+rule_start
+  R1 when A and {{m}} then C // one
+  R2 when {0} and {{n}} then not C // two
+  R3 when B then A eventually
+rule_end // the end
+{1}purpose_start
+  p1 exists B while C
+purpose_end
+"""
+
+
+def test_the_dsl_has_a_relation_of_conditions() -> None:
+    text = RELATED.format("A", "")
+    block = "\n\nrelation_start\n  measure invariant (not ({m} and {n}))\nrelation_end"
+    assert after(text, "assumption") == [text.replace("// the end", f"// the end{block}")]
+
+
+def test_a_relation_follows_the_last_one() -> None:
+    text = RELATED.format("A", "relation_start\n\tmutualExclusive B C // never\nrelation_end\n")
+    relation = "\n\tmeasure invariant (not ({m} and {n}))"
+    assert after(text.replace("  p1 exists B while C", "  p1 exists B"), "assumption") == [
+        text.replace("// never", f"// never{relation}").replace("  p1 exists B while C", "  p1 exists B")
+    ]
+
+
+def test_two_events_do_not_occur_together() -> None:
+    text = RELATED.format("B", "").replace(" and {m}", "").replace(" and {n}", "").replace("then A", "then C")
+    text = text.replace("  measure m: boolean\n  measure n: boolean\n", "").replace("while C", "while B")
+    assert any("\n  mutualExclusive A B\n" in one for one in after(text, "assumption"))
+
+
 def test_no_assumption_excludes_a_trigger() -> None:
     text = "RULE one\nWHEN Check THEN Open AND Speak\n\nRULE two\nWHEN Check THEN NOT Open AND Beep\n"
     assert repairs_of(text, "SLEEC101")
