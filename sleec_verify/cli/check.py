@@ -30,10 +30,6 @@ if TYPE_CHECKING:
     from sleec_verify.results.finding import CheckResult
 
 
-_WITH_REPAIRS = ("full", "concise", "json", "sarif")
-"""The formats that show repairs."""
-
-
 @click.command(
     "check",
     cls=FixCommand,
@@ -102,8 +98,6 @@ def command(
 
         require_writable(output, (path for path in files(paths) if not isinstance(path, UnusableInput)))
     cache = None if no_cache else cache_of_environment()
-    if fixes and form not in _WITH_REPAIRS:
-        raise click.UsageError(f"--fixes needs --format {', '.join(_WITH_REPAIRS[:-1])} or {_WITH_REPAIRS[-1]}")
     if only_show and not fix:
         raise click.UsageError("--diff needs --fix")
     if fix:

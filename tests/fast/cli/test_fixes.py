@@ -87,10 +87,3 @@ def test_repairs_that_cannot_be_verified_are_unknown(cli: Cli, monkeypatch: pyte
     assert "a.sleec:3:1: unknown[repairs] there may be more: the solver gave up\n" in shown["concise"]
     validator("check").validate(json.loads(shown["json"]))
     assert '"repairs_unknown": "the solver gave up"' in shown["json"]
-
-
-@pytest.mark.parametrize("form", ["junit", "github", "gitlab"])
-def test_formats_without_repairs(form: str, cli: Cli) -> None:
-    ran = cli("check", "--fixes", "--format", form, "a.sleec", files={"a.sleec": CONFLICT})
-    assert (ran.code, ran.out) == (2, "")
-    assert "--fixes needs --format full, concise, json or sarif" in ran.err
