@@ -100,10 +100,11 @@ def sought_callables(obligations: Sequence[str], robots: Iterable[object]) -> st
     sought = [snake_case(name) for name in obligations]
     known = sorted({attribute for robot in robots for attribute in dir(robot) if _is_callable(robot, attribute)})
     similar = {f"`{near}`" for name in sought if (near := nearest(name, known)) is not None}
+    methods = "method" if len(sought) == 1 else "methods"
     return (
-        f"give an object with {listed(f'`{name}`' for name in sought)}, "
-        f'or with methods that are marked, such as @sleec_runtime.obligation("{obligations[0]}")'
-        + (f"; there is {listed(sorted(similar))}" if similar else "")
+        f"give an object with the {methods} {listed(f'`{name}`' for name in sought)}, "
+        f'or mark a method with @sleec_runtime.obligation("{obligations[0]}")'
+        + (f"; did you mean {listed(sorted(similar))}?" if similar else "")
     )
 
 

@@ -153,7 +153,7 @@ class Instance:
             if not found:
                 raise Unbindable(
                     f"{represent(target)} implements no obligation of the ruleset",
-                    sought_callables(sorted(obligations), [target]) if obligations else "its rules require nothing",
+                    sought_callables(sorted(obligations), [target]) if obligations else "the rules have no obligations",
                 )
             self._robots += (target,)
         self._callables.update(found)

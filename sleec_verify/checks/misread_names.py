@@ -86,10 +86,13 @@ def misreadings(ruleset: Ruleset, used: Mapping[DeclaredKind, Collection[str]]) 
     return list({one.name: one for one in reversed(found)}.values())
 
 
-_MEANT = (
-    "If the name is meant as it is written, declare it, or allow it with a comment that has the code and a reason: "
-    "// sleec: allow SLEEC520 because REASON."
-)
+def _if_meant(code: str) -> str:
+    return (
+        "If the name is meant as it is written, declare it, or allow it with a comment that gives a reason: "
+        f"// sleec: allow {code} because REASON."
+    )
+
+
 MISREAD_NAME = Check(
     "misread-name",
     "Does every name mean what its words say?",
@@ -98,9 +101,10 @@ MISREAD_NAME = Check(
             "SLEEC520",
             "warning",
             "a negation inside a name",
-            "A name contains a word such as `not` or `never`. It is one name. An obligation with such a name requires "
-            "what its words deny. A condition with such a name is independent of the condition without the negation.",
-            f"Write the keyword NOT before the name without the negation. {_MEANT}",
+            "A name contains a word such as `not` or `never`. It is read as one name. An obligation with such a name "
+            "requires what its words forbid. A condition with such a name is independent of the condition without the "
+            "negation.",
+            f"Write the keyword NOT before the name without the negation. {_if_meant('SLEEC520')}",
             "WHEN the user sleeps THEN the robot is not allowed to play music\n",
             "WHEN the user sleeps THEN NOT play music\n",
         ),
@@ -110,7 +114,7 @@ MISREAD_NAME = Check(
             "a modal verb inside an obligation",
             "An obligation contains a word such as `must` or `should`. The words are part of its name, so the same "
             "action without them is a different obligation.",
-            f"Write only the action: THEN says that the robot must do it. {_MEANT}",
+            f"Write only the action: THEN says that the robot must do it. {_if_meant('SLEEC521')}",
             "WHEN the user falls THEN the robot has to call the nurse\n",
             "WHEN the user falls THEN call the nurse\n",
         ),
@@ -118,9 +122,9 @@ MISREAD_NAME = Check(
             "SLEEC522",
             "warning",
             "a comparison inside a name",
-            "A condition contains words such as `under 6`, or a measure and its value. It is one name, so it is "
-            "independent of the measure and of other bounds.",
-            f"Declare a measure, and compare it with an operator. {_MEANT}",
+            "A condition contains words such as `under 6`, or a measure and its value. The words are read as one name, "
+            "so the condition is independent of the measure and of other comparisons.",
+            f"Declare a measure, and compare it with an operator. {_if_meant('SLEEC522')}",
             "WHEN the door opens THEN greet\nUNLESS the age is under 6 IN WHICH CASE wave\n",
             "MEASURE age: number\nWHEN the door opens THEN greet\nUNLESS age < 6 IN WHICH CASE wave\n",
         ),
@@ -128,10 +132,11 @@ MISREAD_NAME = Check(
             "SLEEC523",
             "warning",
             "two conditions that are opposites",
-            "Two conditions differ only by a word and its opposite, such as `open` and `closed`. The rules do not know "
-            "that they exclude each other. So `check` examines situations in which both hold, and some in which "
-            "neither does.",
-            "Use one of the two, with NOT for the other. If neither may hold, exclude both with ASSUME.",
+            "Two conditions differ only by a word and its opposite, such as `open` and `closed`. The rules do not say "
+            "that they exclude each other. So `check` also examines situations in which both are true, and situations "
+            "in which neither is true.",
+            "Use one of the two, with NOT for the other. If both can be false at the same time, "
+            "keep both names, and exclude with ASSUME that both are true.",
             "WHEN the bell rings THEN go in\nUNLESS the door is closed IN WHICH CASE knock\n"
             "WHEN the guest leaves THEN close the door\nUNLESS the door is open IN WHICH CASE wait\n",
             "WHEN the bell rings THEN go in\nUNLESS the door is closed IN WHICH CASE knock\n"
@@ -143,7 +148,7 @@ MISREAD_NAME = Check(
             "a word in capitals that is not a keyword",
             "A name contains a word in capitals that looks like a keyword, such as BUT or IMMEDIATELY. Structured "
             "English has no such keyword. The word is part of the name.",
-            f"Use the keyword of structured English, or leave the word out. {_MEANT}",
+            f"Use the keyword of structured English, or leave the word out. {_if_meant('SLEEC524')}",
             "WHEN the user falls THEN call the nurse IMMEDIATELY\n",
             "WHEN the user falls THEN call the nurse\n",
         ),
@@ -152,11 +157,11 @@ MISREAD_NAME = Check(
             "warning",
             "two names that differ only slightly",
             "Two names differ only by an article, by capitals, by singular and plural, by the form of a verb, or by "
-            "one letter. They are two different names. A rule about one does not conflict with a rule about the other.",
+            "one letter. They are two names. A rule about one does not conflict with a rule about the other.",
             "Use one spelling everywhere. If you mean two different things, choose names that differ more, or allow "
             "one with a comment: // sleec: allow SLEEC525 because REASON.",
-            "WHEN the user falls THEN call the nurse\nWHEN the user sleeps THEN NOT call nurse\n",
-            "WHEN the user falls THEN call the nurse\nWHEN the user sleeps THEN NOT play music\n",
+            "WHEN the user falls THEN call the nurse\nWHEN the user rings THEN call nurse\n",
+            "WHEN the user falls THEN call the nurse\nWHEN the user rings THEN call the nurse\n",
         ),
     ),
     _misread,

@@ -165,8 +165,8 @@ def _help(ruleset: Ruleset) -> str:
             "if you mean cascade, add those of all earlier exceptions with `and`"
         )
     return (
-        f"write READING {ruleset.reading} at the top if you mean that; "
-        f"write READING {OTHER[ruleset.reading]} if you mean the other one"
+        f"at the top of the text, write READING {ruleset.reading} to keep this reading, "
+        f"or READING {OTHER[ruleset.reading]} for the other one"
     )
 
 
@@ -200,11 +200,12 @@ READING = Check(
             "There are two ways to read several exceptions. `cascade` applies the last exception before the first "
             "false condition. `priority` applies the last exception whose condition is true. If a later "
             "condition can be true while an earlier one is false, the two readings can require different things, and "
-            "another tool may read this rule differently. `check` does not ask this of a text that states its reading "
-            "with `READING cascade` or `READING priority`.",
+            "another tool may read this rule differently. A text that sets its reading with `READING cascade` or "
+            "`READING priority` has no such finding.",
             "At the top of the text, write the reading that you mean: `READING cascade` or `READING priority`. If "
             "other tools read the rule, write it so that both readings agree: repeat the condition of each exception "
-            "in the next one, as below. docs/language.md shows exceptions that do not depend on each other.",
+            "in the next one, as in the example below. docs/language.md shows exceptions that do not depend on each "
+            "other.",
             "WHEN HumanOnFloor THEN CallEmergencyServices\n"
             "UNLESS UserResponsive IN WHICH CASE AskForUserStatus\n"
             "UNLESS UserWithCompanion IN WHICH CASE AskCompanionToCheck\n",

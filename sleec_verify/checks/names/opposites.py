@@ -23,7 +23,7 @@ def negated_conditions(names: Sequence[str]) -> Iterator[Misreading]:
         other = plain.get(stems(" ".join(left))) or plain.get(stems(" ".join(finite)))
         if other is not None and other != name:
             instead = f"NOT {other}"
-            message = f"{quoted(name)} and {quoted(other)} are two independent conditions"
+            message = f"{quoted(name)} and {quoted(other)} are read as two independent conditions"
             yield Misreading(NEGATION, name, message, f"write {quoted(instead)}", instead, other)
         elif words[0] == "not" and " " in name:
             instead = f"NOT {name.split(maxsplit=1)[1]}"
@@ -49,7 +49,7 @@ def opposites(ruleset: Ruleset, names: Sequence[str]) -> Iterator[Misreading]:
     related = _related(ruleset) if pairs else {}
     for one, other in sorted(pairs):
         if related.get(one, frozenset()).isdisjoint(related.get(other, ())):
-            message = f"{quoted(other)} and {quoted(one)} are two independent conditions"
+            message = f"{quoted(other)} and {quoted(one)} are read as two independent conditions"
             advice = (
                 f"write {quoted(f'NOT {one}')} instead, "
                 f"or exclude both together: {quoted(f'ASSUME NOT ({one} AND {other})')}"

@@ -121,7 +121,7 @@ def _said(name: str, plain: str) -> Iterator[Misreading]:
     if not (found["subject"] or verbs[0] not in ("can", "to")):
         return
     if not PERMISSIONS.isdisjoint(modals):
-        advice = f"a rule permits nothing: write {quoted(action)} if the robot must do it, or leave it out"
+        advice = f"a rule cannot permit an action: if the robot must do it, write {quoted(action)}; otherwise remove it"
         yield _in_obligation(name, False, advice)
     elif _TO_DO.search(found["verbs"]) or not MODALS.isdisjoint(modals):
         yield _in_obligation(name, False, f"write only the action: {quoted(action)}", action)

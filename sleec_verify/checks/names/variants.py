@@ -45,7 +45,7 @@ def variants(ruleset: Ruleset, used: Used, declared: Collection[str]) -> list[Mi
 
 
 def _misreading(name: str, kept: str) -> Misreading:
-    message = f"{quoted(name)} and {quoted(kept)} are two different names"
+    message = f"{quoted(name)} and {quoted(kept)} are read as two different names"
     return Misreading(SIMILAR, name, message, f"if you mean the same, write {quoted(kept)} in both places", kept, kept)
 
 

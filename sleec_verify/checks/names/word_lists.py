@@ -107,7 +107,7 @@ FOREIGN = {
     ),
     **dict.fromkeys(
         ("MAY", "CAN", "OPTIONALLY"),
-        "leave it out, and say with UNLESS when the robot need not do it: a rule permits nothing",
+        "leave it out, and say with UNLESS when the robot need not do it: a rule cannot permit an action",
     ),
     "FOR": "write NOT and WITHIN for a prohibition that lasts, for example: NOT play music WITHIN 5 minutes",
     "AFTER": "write WITHIN and two times for an earliest time, for example: WITHIN 5 TO 10 minutes",
