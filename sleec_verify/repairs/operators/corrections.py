@@ -95,6 +95,7 @@ def definitions(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
 def windows(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
     """A window without length is removed, because a response without a window is due at the same instant."""
     text = ruleset.source.text
-    start = len(text[: finding.span.start].rstrip())
-    title = f"remove {quoted(text[slice(*finding.span)])}"
-    yield Candidate("canonical-form", title, (TextEdit(start, finding.span.end, ""),))
+    if finding.obligations:  # otherwise it is the time of a relation
+        start = len(text[: finding.span.start].rstrip())
+        title = f"remove {quoted(text[slice(*finding.span)])}"
+        yield Candidate("canonical-form", title, (TextEdit(start, finding.span.end, ""),))

@@ -44,11 +44,16 @@ def _with_alternative(ruleset: Ruleset, rule: Rule, number: int, response: Oblig
     timing = response.timing
     if timing is None or timing.window is None or any(True for _ in timing.alternatives()):
         return
-    others = (one for clause in rule.clauses() for one in clause.obligations)
+    own = list(rule.clauses())[number]
+    others = (one for clause in rule.clauses() if clause is not own for one in clause.obligations)
     for other in others:
         if not other.negated and other.name != response.name:
             text = f"{printer_of(ruleset).keyword('otherwise')} {response_text(ruleset, [other])}"
             title = f"add to {quoted(str(response))} in {clause_name(rule, number)}: {quoted(text)}"
-            edit = TextEdit(timing.window.span.end, timing.window.span.end, f" {text}")
-            yield Candidate("deadline-refinement", title, (edit,), rule.label)
+            start, end = response.span.start, timing.window.span.end
+            edits: tuple[TextEdit, ...] = (TextEdit(end, end, f" {text}"),)
+            if len(own.obligations) > 1:
+                # The alternative would replace the following obligations, too.
+                edits = (TextEdit(start, start, "("), TextEdit(end, end, f" {text})"))
+            yield Candidate("deadline-refinement", title, edits, rule.label)
             return

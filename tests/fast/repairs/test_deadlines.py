@@ -26,6 +26,11 @@ def test_a_response_has_any_time_or_an_alternative() -> None:
     }
 
 
+def test_an_alternative_belongs_to_one_obligation() -> None:
+    text = RULES.replace("Call WITHIN 5 minutes", "Speak AND Call WITHIN 5 minutes AND Wave")
+    assert text.replace("Call WITHIN 5 minutes", "(Call WITHIN 5 minutes OTHERWISE Ring)") in after(text)
+
+
 def test_a_response_without_a_window_gets_any_time() -> None:
     text = """def_start
   event A
