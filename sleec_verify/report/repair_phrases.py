@@ -15,11 +15,14 @@ if TYPE_CHECKING:
 _MOST_CHANGES = 2
 """The changes that one line names."""
 
+_CONFLICTS = ("conflict", "vacuous-conflict")
+"""The checks that find conflicts."""
+
 
 def effect_in_words(repair: Repair) -> str:
     """``in the situation of the conflict, the rules then require `NOT Speak`; nothing else changes``"""
     found = repair.effect.difference
-    is_conflict = repair.finding.check in ("conflict", "vacuous-conflict")
+    is_conflict = repair.finding.check in _CONFLICTS
     if repair.effect.keeps_meaning and not is_conflict:
         return "the rules mean the same"
     parts = list(_resolved(repair))
@@ -40,7 +43,9 @@ def _resolved(repair: Repair) -> Iterator[str]:
     """What holds in the situation of the conflict of the finding, and the number of other conflicts that are gone."""
     found = repair.effect.difference
     gone = [conflict for conflict in found.conflicts if conflict.way == "removed"]
-    if gone:
+    if gone and repair.finding.check not in _CONFLICTS:
+        yield f"{counted(len(gone), 'conflict')} {'is' if len(gone) == 1 else 'are'} resolved"
+    elif gone:
         own = next((one for one in gone if set(one.rules) == set(repair.finding.rules)), gone[0])
         yield f"in the situation of the conflict, the rules then require {_required(own)}"
         if len(gone) > 1:

@@ -79,10 +79,10 @@ def _rules(ruleset: Ruleset, concern: Claim, opposite: Obligation) -> Iterator[C
     for how, response in (("a condition", None), ("an exception", opposite)):
         changed = [giving_way(ruleset, rule, number, concern, response) for rule, number in contrary]
         if changed and all(changed):
-            names = listed(quoted(rule.label) for rule, _ in contrary)
+            names = listed(f"rule {quoted(rule.label)}" for rule, _ in contrary)
             yield Candidate(
                 "rule-addition",
-                f"{title}, and {how} to {names} for this case",
+                f"{title}; then add {how} to {names} for this case",
                 joined((*(edit for one in changed for edit in one), *edits)),
             )
 

@@ -123,7 +123,7 @@ def refinements(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
             for condition in one.conditions:
                 refined = conjunction([one.clause.condition, negation(condition)])
                 text = quoted(formula_text(ruleset, refined))
-                title = f"refine the condition of {clause_name(one.rule, one.number)}: {text}"
+                title = f"narrow the condition of {clause_name(one.rule, one.number)} to {text}"
                 edits = with_condition(ruleset, one.clause, refined)
                 yield Candidate("defeater-refinement", title, edits, one.rule.label)
 

@@ -58,6 +58,12 @@ REMOVED = f"{HERE} `NOT Speak`; 1 other conflict is resolved; rule `a`, in 1 of 
             "remove rule `a`",
             f"{REMOVED}`Bell` occurs: `Speak` and `Rise` are no longer required",
         ),
+        (
+            f"{CLASH}PURPOSE p EXISTS Bell AND Late WHILE Speak\n",
+            "SLEEC105",
+            "remove rule `b`",
+            "1 conflict is resolved; nothing else changes",
+        ),
         (TIMED, "SLEEC101", "remove rule `R2`.*", "the conflict is resolved; nothing else changes"),
     ],
 )
