@@ -235,7 +235,8 @@ class Instance:
         without = [name for name in names if name not in self._callables]
         if without:
             raise NotBound(
-                f"rule `{rule.label}` has no method, and {listed(without)} ({clause_name(rule, number)}) no callable",
+                f"rule `{rule.label}` has no method, and there is no callable for "
+                f"{listed(f'`{name}`' for name in without)} ({clause_name(rule, number)})",
                 [rule.label],
                 f'mark a method with @sleec.rule("{rule.label}") and bind() its object, or implement() the obligations'
                 f": {sought_callables(without, self._robots)}",

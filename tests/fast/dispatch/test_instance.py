@@ -347,7 +347,7 @@ def test_what_is_missing_is_told_beforehand(sleec: Sleec) -> None:
     assert "RefuseRequest" in str(sleec.missing()["dress_assist"])
     sleec.trigger(REQUEST, "message")
     sleec.update({"UserUndressed": True})
-    with pytest.raises(NotBound, match="RefuseRequest, ExplainWhy"):
+    with pytest.raises(NotBound, match="no callable for `RefuseRequest`, `ExplainWhy`"):
         sleec.trigger(REQUEST, "message")
 
 
