@@ -27,7 +27,7 @@ def _misread(index: RulesetIndex) -> Iterator[Finding]:
     ruleset = index.ruleset
     found = misreadings(ruleset, index.names_used)
     if found:
-        allowing = suppressions(ruleset, ALLOWED_BY_COMMENTS)[0]
+        allowing = suppressions(ruleset)[0]
         for finding in _findings(ruleset, found):
             if not any(one.covers(ruleset, finding) for one in allowing):
                 yield finding

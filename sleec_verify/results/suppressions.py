@@ -40,8 +40,9 @@ class Suppression(NamedTuple):
         return any(place.line <= self.last and place.end_line >= self.first for place in places)
 
 
-def suppressions(ruleset: Ruleset, known: Collection[str]) -> tuple[list[Suppression], list[Problem]]:
-    """The suppressions of a text, and the errors of invalid ones. `known` are all codes and checks."""
+def suppressions(ruleset: Ruleset, known: Collection[str] | None = None) -> tuple[list[Suppression], list[Problem]]:
+    """The suppressions of a text, and the errors of invalid ones. `known` are all codes and checks; without it, unknown
+    ones are accepted."""
     found: list[Suppression] = []
     problems: list[Problem] = []
     if "sleec" not in ruleset.source.text:
@@ -85,13 +86,13 @@ def _identity(one: Suppression) -> tuple[object, ...]:
     return one.allowed, one.reason, one.about
 
 
-def _wrong(said: re.Match[str] | None, known: Collection[str]) -> tuple[str, str] | None:
+def _wrong(said: re.Match[str] | None, known: Collection[str] | None) -> tuple[str, str] | None:
     if said is None:
         return "this comment starts with sleec: but allows nothing", _EXAMPLE
     if not said.group(2):
         return "a suppression needs a reason", "add the reason: because …"
     for name in (part.strip() for part in said.group(1).split(",")):
-        if name not in known:
+        if known is not None and name not in known:
             from sleec_runtime.support.suggestions import nearest
 
             near = nearest(name, sorted(known))

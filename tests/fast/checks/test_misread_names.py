@@ -216,7 +216,7 @@ def test_declared_names_are_meant_as_they_are_written() -> None:
     "text",
     [
         "WHEN the bell rings THEN not leave // sleec: allow SLEEC520 because it is a dance\n",
-        "# sleec: allow SLEEC523, SLEEC520 because it is a dance\nWHEN the bell rings\nTHEN not leave\n",
+        "# sleec: allow SLEEC101, SLEEC520 because it is a dance\nWHEN the bell rings\nTHEN not leave\n",
         "// sleec: allow misread-name because it is a dance\nRULE dance WHEN the bell rings THEN not leave\n",
     ],
 )
