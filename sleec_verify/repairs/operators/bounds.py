@@ -66,7 +66,7 @@ def operators(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
                 same_side = _SAME_SIDE[leaf.operator]
                 for operator in (same_side, _NEGATION[same_side]):
                     text, old = _text(ruleset, replace(leaf, operator=operator)), _text(ruleset, leaf)
-                    title = f"write {quoted(text)} for {quoted(old)} in rule {quoted(label)}"
+                    title = f"replace {quoted(old)} with {quoted(text)} in rule {quoted(label)}"
                     yield Candidate("correction", title, replaced(leaf.span, text))
 
 

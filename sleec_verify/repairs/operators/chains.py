@@ -13,7 +13,7 @@ from sleec_verify.repairs.operators.giving_way import negation
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import formula_text, line_break_of, strengthened, with_condition, without
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import listed, quoted
+from sleec_verify.results.phrases import exception, listed, quoted
 
 
 def readings(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -45,7 +45,7 @@ def _independent_of_reading(ruleset: Ruleset, finding: Finding) -> Iterator[Cand
             written.append(quoted(f"unless {text}"))
             if text != formula_text(ruleset, conditions[number]):
                 edits += with_condition(ruleset, hedge, others[number])
-        title = f"write the exceptions of rule {quoted(rule.label)} so that they mean {reading}: {listed(written)}"
+        title = f"rewrite the exceptions of rule {quoted(rule.label)} for the reading {reading}: {listed(written)}"
         yield Candidate("canonical-form", title, tuple(edits))
 
 
@@ -77,5 +77,6 @@ def silences(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
             continue
         excluded = conjunction([negation(hedge.condition) for hedge in last if hedge.condition is not None])
         edits = [edit for hedge in last for edit in without(ruleset, hedge.span)]
-        title = f"write at the trigger of rule {quoted(label)} instead: {quoted(formula_text(ruleset, excluded))}"
+        replaced = f"{listed(map(exception, last))} of rule {quoted(label)}"
+        title = f"replace {replaced} with a condition at its trigger: {quoted(formula_text(ruleset, excluded))}"
         yield Candidate("canonical-form", title, joined((*strengthened(ruleset, rule, excluded), *edits)))
