@@ -19,7 +19,10 @@ def rules(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
     """Rule removal: without one of the rules of the finding."""
     for label in finding.rules:
         rule = ruleset.by_label[label]
-        yield Candidate("rule-removal", f"remove rule {quoted(label)}", removed_rule(ruleset, rule), label)
+        title = f"remove rule {quoted(label)}"
+        if rule.always is not None:  # the text has only the statement of all its rules
+            title = f"remove {quoted(' '.join(ruleset.source.text[slice(*rule.span)].split()))}"
+        yield Candidate("rule-removal", title, removed_rule(ruleset, rule), label)
 
 
 def redundant_rule(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:

@@ -45,6 +45,14 @@ def test_names_that_nothing_uses_any_more_go_with_a_rule() -> None:
     assert "remove rule `b`; then remove the declaration of `c`" in titles
 
 
+def test_the_removal_of_a_rule_for_every_trigger_names_its_statement() -> None:
+    ruleset = parse("ALWAYS greet\nRULE a\nWHEN T THEN NOT greet\nRULE b\nWHEN S THEN B\n")
+    results = run_checks(ruleset)
+    (finding,) = (f for result in results for f in result.findings if f.code == "SLEEC101")
+    titles = [repair.candidate.title for repair in RepairSearch(ruleset, results).repairs(finding)]
+    assert "remove `ALWAYS greet`" in titles
+
+
 def test_removed_declarations_are_one_step() -> None:
     text = "CONDITION c, d\nRULE a\nWHEN T THEN A\nRULE b\nWHEN T AND c AND d THEN NOT A\nRULE e\nWHEN S THEN B\n"
     ruleset = parse(text)
