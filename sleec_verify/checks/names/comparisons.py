@@ -15,7 +15,7 @@ from sleec_verify.results.phrases import quoted
 _DIGIT = re.compile("[0-9]")
 _NUMBER = re.compile(r"-?[0-9]+(?:\.[0-9]+)?")
 _IS = frozenset({"is", "are", "was", "were"})
-_VERBS = _IS | {"be", "been", "there", "has", "have", "had", "falls", "drops", "rises", "goes", "gets"}
+_VERBS = _IS | {"be", "been", "there", "has", "have", "had", "falls", "drops", "rises", "goes", "gets", "for"}
 _PRONOUNS = frozenset({"it", "this", "that"})
 _NOT = frozenset({"not", "never"})
 

@@ -8,8 +8,9 @@ from itertools import combinations
 
 from sleec_runtime.model import DeclaredKind, Ruleset
 from sleec_runtime.support.suggestions import edit_distance
+from sleec_verify.checks.names.frequent_words import FREQUENT_WORDS
 from sleec_verify.checks.names.misreading import KINDS, SIMILAR, Misreading
-from sleec_verify.checks.names.word_forms import singulars, stems_of_each
+from sleec_verify.checks.names.word_forms import singulars, stem, stems_of_each
 from sleec_verify.checks.names.word_lists import OPPOSITES
 from sleec_verify.encoding.name_places import name_places
 from sleec_verify.results.phrases import quoted
@@ -60,19 +61,23 @@ def _misspelled(groups: Collection[str], stem_of: Mapping[str, str]) -> Iterator
 
     Two words with an edit distance of one have a common part that lacks at most one letter of each (Mor and Fraenkel
     1982). So the pairs are found in linear time. The first letter is rarely wrong (Pollock and Zamora 1984), and often
-    distinguishes two words, such as `left light` and `left right`.
+    distinguishes two words, such as `left light` and `left right`. Neither of two frequent words is a misspelling.
     """
     long_words = [word for word in stem_of if len(word) >= _SHORTEST - 1 and word.isalpha() and word not in OPPOSITES]
     near: dict[str, list[str]] = defaultdict(list)
     for word in long_words:
         for at in range(1, len(word) + 1):
             near[word[:at] + word[at + 1 :]].append(word)
+    frequent = (
+        {stem(word) for word in FREQUENT_WORDS} if any(len(words) > 1 for words in near.values()) else frozenset[str]()
+    )
     pairs = {
         tuple(sorted((stem_of[one], stem_of[other])))
         for words in near.values()
         for one, other in combinations(words, 2)
         if max(len(one), len(other)) >= _SHORTEST
         and stem_of[one] != stem_of[other]
+        and not {stem_of[one], stem_of[other]} <= frequent
         and edit_distance(one, other, 2) == 1
         and not _look_alike(one, other)
     }

@@ -285,6 +285,9 @@ FINE = [
     "THEN a UNLESS danger is near",
     "THEN lower the bed AND power the bed",
     "THEN _ AND __",
+    "THEN clear the table AND clean the table",
+    "THEN a UNLESS a customer pays IN WHICH CASE b UNLESS a customer plays",
+    "THEN guide visitors to exit 2 AND keep a distance of 2 metres",
 ]
 
 
