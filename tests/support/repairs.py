@@ -7,12 +7,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from sleec_runtime.language import parse
-from sleec_runtime.model import Rule, Ruleset, Statement
+from sleec_runtime.model import Assume, Rule, Ruleset, Statement
 from sleec_verify.checks import run_checks
 from sleec_verify.repairs.edit import edited
 from sleec_verify.repairs.repair import Repair
 from sleec_verify.repairs.search import RepairSearch
 from sleec_verify.results.finding import CheckResult, Finding
+from tests.support import brute_force
 
 
 def findings(results: Sequence[CheckResult]) -> list[Finding]:
@@ -64,3 +65,14 @@ def _unnumbered(statement: Statement) -> Statement:
 
 def texts_after(text: str, repairs: Sequence[Repair]) -> list[str]:
     return [edited(text, repair.candidate.edits) for repair in repairs]
+
+
+def differing(old: Ruleset, new: Ruleset) -> int:
+    """The situations without a conflict in which the rules oblige something else, as the first rules name them, and
+    those that an assumption excludes."""
+    assumed = [one for one in new.constraints if isinstance(one, Assume) and one not in old.constraints]
+    return sum(
+        not all(brute_force.value(one.formula, context, measures=new.measures) for one in assumed)
+        or (brute_force.due(old, context) != brute_force.due(new, context) and not brute_force.conflicts(old, context))
+        for context in brute_force.contexts(old)
+    )
