@@ -123,6 +123,39 @@ def robot(sleec: Sleec) -> Any:
     return Robot
 
 
+class IfElse:
+    """The decisions of rule r0, written by hand."""
+
+    def __init__(self) -> None:
+        self.conditions = {"c0": True, "d0": False}
+
+    def base(self, message: object) -> None: ...
+
+    def one(self, message: object) -> None: ...
+
+    def two(self, message: object) -> None: ...
+
+    def trigger(self, message: object) -> None:
+        if self.conditions["c0"]:
+            if self.conditions["d0"]:
+                self.two(message)
+            else:
+                self.one(message)
+        else:
+            self.base(message)
+
+
+def toggling(sleec: Sleec) -> Callable[[], object]:
+    """A function that changes condition c0."""
+    state = {"c0": False}
+
+    def toggle() -> None:
+        state["c0"] = not state["c0"]
+        sleec.update(state)
+
+    return toggle
+
+
 def running(size: int, mentioning: int = 1) -> tuple[Sleec, Any]:
     sleec = Sleec(rules(size, mentioning))
     instance = robot(sleec)()
@@ -135,6 +168,7 @@ def by_size(rounds: int) -> tuple[dict[str, Timing], list[Bound]]:
     calls: dict[str, Callable[[], object]] = {}
     _, bare = running(1)
     calls["ContextPy3 call, no layer active"] = partial(bare.m0, None)
+    calls["if-else with the same decisions"] = partial(IfElse().trigger, None)
     for size in SIZES:
         sleec, _ = running(size)
         sleec.update({"c0": True})
@@ -145,6 +179,7 @@ def by_size(rounds: int) -> tuple[dict[str, Timing], list[Bound]]:
     return timings, [
         Bound("dispatch, 10,000 rules : 1 rule", most / one, "<=", 1.3),
         Bound("dispatch : bare ContextPy3 call", most / bare_call, "<=", 1.0),
+        Bound("dispatch : if-else", one / timings["if-else with the same decisions"].median, "<=", 12.0),
     ]
 
 
@@ -164,18 +199,33 @@ def against_global_activation(rounds: int) -> tuple[dict[str, Timing], list[Boun
     return timings, [Bound("global activation : dispatch", globally / dispatched, ">=", 100)]
 
 
+def change_and_dispatch(rounds: int) -> tuple[dict[str, Timing], list[Bound]]:
+    """A change of the context and then a dispatch, compared with bare ContextPy3 calls."""
+    _, bare = running(1)
+    calls: dict[str, Callable[[], object]] = {"a ContextPy3 call": partial(bare.m0, None)}
+
+    def both(sleec: Sleec) -> Callable[[], object]:
+        toggle = toggling(sleec)
+
+        def change_and_trigger() -> None:
+            toggle()
+            sleec.trigger("t0", None)
+
+        return change_and_trigger
+
+    for size in SIZES:
+        calls[f"change and dispatch, {size:,} rules"] = both(running(size)[0])
+    timings = measured(calls, rounds)
+    one, most = (timings[f"change and dispatch, {size:,} rules"].median for size in (SIZES[0], SIZES[-1]))
+    return timings, [
+        Bound("change and dispatch : ContextPy3 call", one / timings["a ContextPy3 call"].median, "<=", 3.0),
+        Bound("change and dispatch, 10,000 rules : 1 rule", most / one, "<=", 2.0),
+    ]
+
+
 def changes(rounds: int) -> tuple[dict[str, Timing], list[Bound]]:
     """A change of one condition that 1 to 1,000 of 10,000 rules mention, and that 1 rule of 1 to 10,000 mentions."""
     calls: dict[str, Callable[[], object]] = {}
-
-    def toggling(sleec: Sleec) -> Callable[[], object]:
-        state = {"c0": False}
-
-        def toggle() -> None:
-            state["c0"] = not state["c0"]
-            sleec.update(state)
-
-        return toggle
 
     for mentioning in MENTIONS:
         calls[f"change, 10,000 rules, {mentioning:,} mention it"] = toggling(running(10_000, mentioning)[0])
@@ -225,7 +275,7 @@ def main(arguments: Sequence[str] = ()) -> int:
     rounds = 100 if options.quick else 1_000
     timings: dict[str, Timing] = {}
     bounds: list[Bound] = []
-    for part in (by_size, against_global_activation, changes, monitored, with_times):
+    for part in (by_size, change_and_dispatch, against_global_activation, changes, monitored, with_times):
         more, of_these = part(rounds)
         timings.update(more)
         bounds += of_these

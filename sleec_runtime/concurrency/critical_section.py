@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from functools import partial, wraps
+from functools import wraps
 from typing import Concatenate, ParamSpec, Protocol, TypeVar
 
 from sleec_runtime.concurrency.fork import renew_after_fork
@@ -29,13 +29,14 @@ class CriticalSection:
         self._undo = undo
         renew_after_fork(self)
 
-    def run(self, change: Callable[[], T]) -> T:
+    def run(self, change: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> T:
         """Makes a change. Raises Reentrant within another change of this thread."""
         with self._lock:
-            self.refuse_reentry()
+            if self._changing:
+                raise Reentrant
             try:
                 self._changing = True
-                return change()
+                return change(*args, **kwargs)
             finally:
                 self._changing = False
 
@@ -68,6 +69,6 @@ def exclusive(method: Callable[Concatenate[S, P], T]) -> Callable[Concatenate[S,
 
     @wraps(method)
     def change(self: S, /, *args: P.args, **kwargs: P.kwargs) -> T:
-        return self._section.run(partial(method, self, *args, **kwargs))
+        return self._section.run(method, self, *args, **kwargs)
 
     return change

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from sleec_runtime.dispatch.snapshot import Snapshot, TriggerOutcomes
+from sleec_runtime.dispatch.decision_memo import TriggerOutcomes
+from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.errors import ConflictInContext, UndeterminedDecision, UnknownTrigger
 from sleec_runtime.evaluation.conflicts import find_conflict, missing_for
 from sleec_runtime.evaluation.due import Due

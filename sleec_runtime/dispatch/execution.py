@@ -13,7 +13,7 @@ from sleec_runtime.dispatch.decisions import due_in
 from sleec_runtime.dispatch.instance import Instance
 from sleec_runtime.dispatch.plan import Args, Kwargs, Plan
 from sleec_runtime.dispatch.snapshot import Snapshot
-from sleec_runtime.dispatch.variants import Unfinished, await_under, run_all
+from sleec_runtime.dispatch.variants import Unfinished, await_under, run_all, run_alone
 from sleec_runtime.errors import NeedsAwait, VariantsFailed
 
 
@@ -34,7 +34,11 @@ def run(plan: Plan, args: Args, kwargs: Kwargs) -> list[object]:
 
     To be called after `Plan.refuse_misfits` and `Plan.refuse_coroutines`.
     """
-    results, errors = run_all(plan.variants, args, kwargs)
+    errors: list[tuple[str, Exception]] = []
+    if len(plan.variants) == 1:
+        results = [run_alone(plan.variants[0], args, kwargs)]
+    else:
+        results, errors = run_all(plan.variants, args, kwargs)
     for result in results:
         if type(result) is CoroutineType or type(result) is Unfinished:
             result.close()

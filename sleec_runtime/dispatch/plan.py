@@ -36,6 +36,7 @@ class Plan:
         "mark",
         "obligations",
         "prohibitions",
+        "ready_for",
         "triggers",
         "variants",
     )
@@ -51,6 +52,8 @@ class Plan:
         self.asynchronous = any(variant.asynchronous for variant in variants)
         self.fitting: set[tuple[object, ...]] = set()
         """The shapes of arguments that fit all variants: see `Variant.fitting`."""
+        self.ready_for: set[int] = set()
+        """The numbers of positional arguments, without others, with which the plan has been run."""
 
     def refuse_misfits(self, args: Args, kwargs: Kwargs) -> None:
         """Raises WrongArguments if the arguments do not fit the code of a rule. O(1) after the first of a shape."""

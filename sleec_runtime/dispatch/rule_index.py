@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
 
+from sleec_runtime.dispatch.decision_memo import RuleMemo, has_calculations
 from sleec_runtime.errors import SleecError, UnknownCondition, UnknownDomain, WrongType
 from sleec_runtime.evaluation.conflicts import Forbidding, forbidding, mentioned
 from sleec_runtime.model import Measure, Never, Obligation, Rule, Ruleset, Value, fit, formulas_of, names_of
@@ -16,10 +17,9 @@ class RuleIndex:
     """The index of the rules of one domain. Immutable, and built in O(size of the rules).
 
     `whole` is the ruleset with all domains, whose names can be reported and triggered in each domain. `by_trigger` has
-    the rules of each trigger, in rule order, and `places` the place of its outcomes in a snapshot. `mentions` maps a
-    condition or measure to the rules that mention it, as positions in `by_trigger`. `trigger_dependent` are the labels
-    of the rules whose guards or hedges name triggers. `situational` are the conditions and measures in `NEVER`
-    constraints.
+    the rules of each trigger, in rule order, and `places` the place of its outcomes in a snapshot. `trigger_dependent`
+    are the labels of the rules whose guards or hedges name triggers. `situational` are the conditions and measures in
+    `NEVER` constraints, by number.
     """
 
     def __init__(self, whole: Ruleset, domain: str | None = None, strict: bool = False) -> None:
@@ -49,7 +49,7 @@ class RuleIndex:
                 self.place_of[rule.label] = number, position
                 for name in {name for formula in formulas_of(rule) for name in names_of(formula)}:
                     mentions[name].append((number, position))
-        self.mentions: Mapping[str, list[tuple[int, int]]] = dict(mentions)
+        self._mentions = {self.numbers[name]: places for name, places in mentions.items() if name in self.numbers}
         self.trigger_dependent = frozenset(
             self.by_trigger[number][position].label
             for trigger in self.number_of.keys() & mentions.keys()
@@ -58,9 +58,30 @@ class RuleIndex:
 
         constraints = forbidding(ruleset)
         nevers = [c for c in constraints if isinstance(c, Never)]
-        self.situational = frozenset(name for c in nevers for name in names_of(c.formula) if name in self.vocabulary)
+        self._memos: dict[str, RuleMemo | None] = {}
+        values = Chunks.of(self.numbers)
+        self._value_places = {name: values.place(number) for name, number in self.numbers.items()}
+        self.situational = frozenset(
+            self.numbers[name] for c in nevers for name in names_of(c.formula) if name in self.numbers
+        )
         self._groups, self._group_of = _grouped(constraints)
         self._always = tuple(c for group in self._groups if any(isinstance(c, Never) for c in group) for c in group)
+
+    def memo(self, rule: Rule) -> RuleMemo | None:
+        """The memo of a rule; None if it is interpreted each time: in strict mode, where values may be unknown, and for
+        calculations."""
+        try:
+            return self._memos[rule.label]
+        except KeyError:
+            is_interpreted = self.strict or has_calculations(rule)
+            found = None if is_interpreted else RuleMemo(rule, self._value_places, self.measures)
+            return self._memos.setdefault(rule.label, found)
+
+    def concerned(self, numbers: Iterable[int]) -> Iterable[tuple[int, int]]:
+        """The rules that mention one of the conditions or measures with these numbers, as positions in `by_trigger`,
+        each once."""
+        found = [self._mentions.get(number, ()) for number in numbers]
+        return found[0] if len(found) == 1 else dict.fromkeys(place for places in found for place in places)
 
     def checked(self, changes: Mapping[str, object]) -> dict[int, Value | None]:
         """The changes by number, each value as the rules compare it; None for a value that is no longer known.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
 
-from sleec_runtime.dispatch.plan import Plan
+from sleec_runtime.dispatch.decision_memo import TriggerMemo, TriggerOutcomes
 from sleec_runtime.dispatch.rule_index import RuleIndex
 from sleec_runtime.evaluation.formula_truth import Situation
 from sleec_runtime.evaluation.hedge_chain import Outcome, walk
@@ -42,16 +42,6 @@ class Conditions(Mapping[str, Value]):
         return f"Conditions({dict(self)})"
 
 
-class TriggerOutcomes:
-    """The outcomes of the rules of one trigger in one context, and its plan once it is made."""
-
-    __slots__ = ("outcomes", "plan")
-
-    def __init__(self, outcomes: tuple[Outcome, ...]) -> None:
-        self.outcomes = outcomes
-        self.plan: Plan | None = None
-
-
 class Snapshot:
     """A context χ without triggers, with the outcome of each rule if its trigger occurs.
 
@@ -59,7 +49,7 @@ class Snapshot:
     long as the mark is the same. `rows` are the rows of `TriggerOutcomes`, for fast dispatch.
     """
 
-    __slots__ = ("_outcomes", "_values", "index", "mark", "number", "rows")
+    __slots__ = ("_memos", "_outcomes", "_values", "index", "mark", "number", "rows")
 
     def __init__(
         self,
@@ -68,13 +58,16 @@ class Snapshot:
         outcomes: Chunks[TriggerOutcomes],
         mark: object,
         number: int,
+        memos: dict[int, TriggerMemo],
     ) -> None:
+        """`memos` are those of the triggers, by number, for the code that is bound now."""
         self.index = index
         self._values = values
         self._outcomes = outcomes
         self.rows = outcomes.rows
         self.mark = mark
         self.number = number
+        self._memos = memos
 
     @classmethod
     def first(cls, index: RuleIndex, known: Mapping[str, object], number: int = 0) -> Snapshot:
@@ -86,7 +79,7 @@ class Snapshot:
         for trigger, rules in zip(index.number_of, index.by_trigger):
             situation = _situation(index, values, (trigger,))
             by_trigger.append(TriggerOutcomes(tuple(walk(rule, situation, reading) for rule in rules)))
-        return cls(index, values, Chunks.of(by_trigger), object(), number)
+        return cls(index, values, Chunks.of(by_trigger), object(), number, {})
 
     @property
     def conditions(self) -> Conditions:
@@ -119,27 +112,44 @@ class Snapshot:
         if not values:
             return self, ()
         after = self._values.replaced(values)
-        names = [name for name in changes if index.numbers[name] in values]
-        concerned = dict.fromkeys(place for name in names for place in index.mentions.get(name, ()))
+        concerned = index.concerned(values)
         changed: dict[int, list[Outcome]] = {}
+        rules = []
         for number, position in concerned:
             if number not in changed:
                 changed[number] = list(self._outcomes[number].outcomes)
             rule = index.by_trigger[number][position]
-            changed[number][position] = walk(rule, _situation(index, after, (rule.trigger,)), index.ruleset.reading)
-        outcomes = self._outcomes.replaced({n: TriggerOutcomes(tuple(found)) for n, found in changed.items()})
-        mark = self.mark if index.situational.isdisjoint(names) else object()
-        rules = tuple(index.by_trigger[number][position] for number, position in concerned)
-        return Snapshot(index, after, outcomes, mark, self.number + 1), rules
+            changed[number][position] = _outcome(index, rule, after)
+            rules.append(rule)
+        outcomes = self._outcomes.replaced({number: self._memo(number).of(found) for number, found in changed.items()})
+        mark = self.mark if index.situational.isdisjoint(values) else object()
+        return Snapshot(index, after, outcomes, mark, self.number + 1, self._memos), tuple(rules)
+
+    def _memo(self, number: int) -> TriggerMemo:
+        try:
+            return self._memos[number]
+        except KeyError:
+            return self._memos.setdefault(number, TriggerMemo())
 
     def without_plans(self, triggers: Iterable[str]) -> Snapshot:
         """The same context without the plans of `triggers`, because the code of their rules changed."""
         numbers = [self.index.number_of[trigger] for trigger in triggers if trigger in self.index.number_of]
         outcomes = self._outcomes.replaced({n: TriggerOutcomes(self._outcomes[n].outcomes) for n in numbers})
-        return Snapshot(self.index, self._values, outcomes, self.mark, self.number)
+        memos = {number: memo for number, memo in self._memos.items() if number not in numbers}
+        return Snapshot(self.index, self._values, outcomes, self.mark, self.number, memos)
 
 
 def _situation(index: RuleIndex, values: Chunks[Value | None], triggers: Iterable[str]) -> Situation:
     """The situation if `triggers` occur."""
     context = Context(frozenset(triggers), Conditions(index.numbers, values))
     return Situation(context, index.measures, None if index.strict else False)
+
+
+def _outcome(index: RuleIndex, rule: Rule, values: Chunks[Value | None]) -> Outcome:
+    """The outcome of a rule if its trigger occurs alone."""
+
+    def decide() -> Outcome:
+        return walk(rule, _situation(index, values, (rule.trigger,)), index.ruleset.reading)
+
+    memo = index.memo(rule)
+    return decide() if memo is None else memo.outcome(values.rows, decide)

@@ -26,7 +26,18 @@ _AFTER: Any = contextpy3._after
 class Variant:
     """The code of one clause: an implementation with its advice, bound to its object, and its layer."""
 
-    __slots__ = ("asynchronous", "called", "chain", "fitting", "instance", "label", "layers", "owner", "proceeds_to")
+    __slots__ = (
+        "asynchronous",
+        "called",
+        "chain",
+        "direct",
+        "fitting",
+        "instance",
+        "label",
+        "layers",
+        "owner",
+        "proceeds_to",
+    )
 
     def __init__(
         self,
@@ -48,6 +59,8 @@ class Variant:
         self.proceeds_to = _past_the_variant(self.chain)
         self.instance = instance
         self.owner = owner
+        self.direct = _without_advice(entries, instance, owner)
+        """The implementation, bound to its object, if no advice comes before it."""
         self.asynchronous = any(is_coroutine_function(function) for _, function, _ in entries)
 
 
@@ -64,6 +77,14 @@ def _taking_arguments(entries: Sequence[Entry], owner: type | None) -> tuple[Cal
         if is_variant(kind):
             break
     return tuple(found)
+
+
+def _without_advice(entries: Sequence[Entry], instance: object, owner: type | None) -> Callable[..., object] | None:
+    _, function, kind = entries[0]
+    if not is_variant(kind):
+        return None
+    bound: Callable[..., object] = function if instance is None and owner is None else function.__get__(instance, owner)
+    return bound
 
 
 def _past_the_variant(chain: Any) -> Any:
@@ -96,6 +117,20 @@ def run_all(
     finally:
         _TLS.active_layers, _TLS.context = layers, context
     return results, errors
+
+
+def run_alone(variant: Variant, args: tuple[Any, ...], kwargs: dict[str, Any]) -> object:
+    """Runs one variant as `run_all` does, and returns its result. Raises its error."""
+    layers, context = _TLS.active_layers, _TLS.context
+    _TLS.active_layers = _foreign(layers) + variant.layers if layers else variant.layers
+    try:
+        if variant.direct is None:
+            return variant.chain([variant.instance, variant.owner, None], args, kwargs)
+        # What ContextPy3's chain does for a variant without advice before it.
+        _TLS.context = [variant.instance, variant.owner, variant.proceeds_to]
+        return variant.direct(*args, **kwargs)
+    finally:
+        _TLS.active_layers, _TLS.context = layers, context
 
 
 def _foreign(layers: tuple[Any, ...]) -> tuple[Any, ...]:

@@ -56,8 +56,11 @@ class Dispatcher:
         self, snapshot: Snapshot, names: tuple[str, ...], args: Args, kwargs: Kwargs, monitor: Monitor | None
     ) -> Done:
         ready = self.plan(snapshot, names)
-        ready.refuse_misfits(args, kwargs)
-        ready.refuse_coroutines()
+        if kwargs or len(args) not in ready.ready_for:
+            ready.refuse_misfits(args, kwargs)
+            ready.refuse_coroutines()
+            if not kwargs:
+                ready.ready_for.add(len(args))
         if monitor is None:
             return Done(ready, snapshot, run(ready, args, kwargs))
         with monitor.observe(names, snapshot):
