@@ -17,8 +17,11 @@ from sleec_verify.results.phrases import clause_name, quoted
 
 
 def deadlines(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
-    """A required response is due at some time, or has another one of the rule as its alternative."""
-    if not ruleset.is_timed:
+    """A required response is due at some time, or has another one of the rule as its alternative.
+
+    Only for a conflict over several instants: at one instant, more time would leave open what the rules require then.
+    """
+    if finding.timeline is None:
         return
     for label, number in finding.clauses:
         rule = ruleset.by_label[label]

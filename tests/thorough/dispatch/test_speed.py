@@ -20,7 +20,10 @@ sys.exit("\\n".join(str(bound) for bound in bounds if not bound.kept) or 0)
 """
 
 
-@pytest.mark.parametrize(("part", "rounds"), [("by_size", 60), ("against_global_activation", 60), ("changes", 80), ("change_and_dispatch", 60)])
+@pytest.mark.parametrize(
+    ("part", "rounds"),
+    [("by_size", 60), ("against_global_activation", 60), ("changes", 80), ("change_and_dispatch", 60)],
+)
 def test_the_bounds_are_kept(part: str, rounds: int) -> None:
     # Other tests run beside it, and may take the processor just then: what is too slow is so three times.
     for _ in range(3):
