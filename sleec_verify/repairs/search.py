@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 
-from sleec_runtime.errors import Unsayable
+from sleec_runtime.errors import SleecError, Unsayable
 from sleec_runtime.model import Reading, Ruleset, Statement
 from sleec_verify.encoding.trace_scope import Untimed
 from sleec_verify.repairs.edit import edited, edits_between
@@ -16,6 +16,7 @@ from sleec_verify.repairs.operators.removal import DECLARATION
 from sleec_verify.repairs.repair import Candidate, Repair
 from sleec_verify.repairs.verification import Rejected, Verification
 from sleec_verify.results.finding import CheckResult, Finding
+from sleec_verify.results.internal_error import internal_errors_of
 from sleec_verify.results.phrases import listed
 
 _MOST_STEPS = 6
@@ -49,9 +50,10 @@ class RepairSearch:
         self.undecided = None
         found: dict[tuple[Reading, tuple[Statement, ...]], Repair] = {}
         for operator, candidate in self._proposed(self._ruleset, finding):
-            repair = self._repair(finding, operator, candidate)
-            if repair is not None:
-                found.setdefault((repair.repaired.reading, repair.repaired.statements), repair)
+            with self._noting_failures():
+                repair = self._repair(finding, operator, candidate)
+                if repair is not None:
+                    found.setdefault((repair.repaired.reading, repair.repaired.statements), repair)
         return sorted(found.values(), key=_size)
 
     def candidates(self, finding: Finding) -> list[Candidate]:
@@ -62,12 +64,23 @@ class RepairSearch:
         text = ruleset.source.text
         seen = {text}
         for operator in OPERATORS.get(finding.code, ()):
-            with suppress(Unsayable):  # the language has no words for this change
+            with self._noting_failures():
                 for candidate in operator(ruleset, finding):
                     changed = edited(text, candidate.edits)
                     if changed not in seen:
                         seen.add(changed)
                         yield operator, candidate
+
+    @contextmanager
+    def _noting_failures(self) -> Iterator[None]:
+        """A change that fails does not hide the others. One for which the language has no words is none."""
+        try:
+            with internal_errors_of(""):
+                yield
+        except Unsayable:
+            pass
+        except SleecError as error:
+            self.undecided = error.message
 
     def _repair(self, finding: Finding, operator: Operation, candidate: Candidate) -> Repair | None:
         """The verified repair, after further steps if one is not enough.

@@ -24,6 +24,7 @@ from sleec_runtime.model import (
     Span,
 )
 from sleec_verify.encoding.equation import conjunction
+from sleec_verify.repairs.comments import blanked
 from sleec_verify.repairs.edit import TextEdit
 
 
@@ -88,7 +89,7 @@ def strengthened(ruleset: Ruleset, rule: Rule, condition: Formula) -> tuple[Text
     condition = as_read(ruleset, condition)
     if rule.guard is None:
         return (TextEdit(rule.trigger_span.end, rule.trigger_span.end, formulas.guard(condition)),)
-    start, end = _with_parentheses(ruleset.source.text, rule.trigger_span.end, rule.guard.span)
+    start, end = _with_parentheses(ruleset, rule.trigger_span.end, rule.guard.span)
     if ruleset.syntax == "dsl":
         # The DSL has one formula after the event, so that it needs parentheses around both.
         both = conjunction([as_read(ruleset, rule.guard), condition])
@@ -99,8 +100,9 @@ def strengthened(ruleset: Ruleset, rule: Rule, condition: Formula) -> tuple[Text
     return (added,)
 
 
-def _with_parentheses(text: str, after: int, span: Span) -> Span:
+def _with_parentheses(ruleset: Ruleset, after: int, span: Span) -> Span:
     """A formula that begins behind the offset `after`, with the parentheses around it."""
+    text = blanked(ruleset.source.text, ruleset.syntax)
     opened = text.count("(", after, span.start)
     start = text.find("(", after, span.start) if opened else span.start
     end = span.end
@@ -112,7 +114,7 @@ def _with_parentheses(text: str, after: int, span: Span) -> Span:
 def with_condition(ruleset: Ruleset, hedge: Clause, condition: Formula) -> tuple[TextEdit, ...]:
     """The exception with another condition."""
     assert hedge.condition is not None, "a hedge has a condition"
-    start, end = _with_parentheses(ruleset.source.text, hedge.span.start, hedge.condition.span)
+    start, end = _with_parentheses(ruleset, hedge.span.start, hedge.condition.span)
     return (TextEdit(start, end, formula_text(ruleset, condition)),)
 
 
@@ -141,7 +143,7 @@ def with_exception(
         indent = _indent_of_exceptions(ruleset, rule)
         return (TextEdit(end, end, f"{line_break_of(text)}{indent}{exception}"),)
     first, last = clause.obligations[0].span.start, clause.obligations[-1].span.end
-    if _is_in_parentheses(text, first, last):
+    if _is_in_parentheses(blanked(text, ruleset.syntax), first, last):
         return (TextEdit(last, last, f" {exception}"),)
     opening, closing = "{}" if ruleset.syntax == "dsl" else "()"
     return (TextEdit(first, first, opening), TextEdit(last, last, f" {exception}{closing}"))

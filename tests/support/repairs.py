@@ -33,6 +33,7 @@ def found_repairs(ruleset: Ruleset, code: str) -> Iterator[tuple[Finding, Repair
             for repair in search.repairs(finding):
                 assert_is_repair(ruleset, results, repair)
                 yield finding, repair
+            assert "internal error" not in (search.undecided or "")
 
 
 def assert_is_repair(ruleset: Ruleset, results: Sequence[CheckResult], repair: Repair) -> None:

@@ -1,0 +1,19 @@
+"""Comments in a text of rules, which an edit must not take for rules, or remove."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+
+from sleec_runtime.model import Syntax
+
+_COMMENT = {
+    "english": re.compile(r"(?://|#)[^\n]*"),
+    "dsl": re.compile(r"//[^\n]*|/\*(?s:.*?)\*/"),
+}
+
+
+@lru_cache(maxsize=4)
+def blanked(text: str, syntax: Syntax) -> str:
+    """The text with spaces in place of its comments, so that all offsets stay."""
+    return _COMMENT[syntax].sub(lambda comment: re.sub(r"\S", " ", comment[0]), text)
