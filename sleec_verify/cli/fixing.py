@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import click
 
-from sleec_runtime.errors import SleecError
+from sleec_runtime.errors import SleecError, UnreadableFile
+from sleec_runtime.language import parse_source
 from sleec_verify.cli import exits
 from sleec_verify.cli.cached_checks import results as kept_or_new
 from sleec_verify.cli.inputs import rulesets
@@ -41,13 +43,29 @@ def apply(
     Returns the exit code if the command ends with this; None if the files are to be checked again.
 
     Raises:
-        click.UsageError: repairs are chosen for several files, or standard input is to be changed.
+        click.UsageError: repairs are chosen for several files, standard input is to be changed, or without a choice,
+            an option gives the rules a meaning that is not that of the whole file.
     """
-    found = rulesets(paths, scope.reading, scope.domain)
+    by_place: dict[str, Ruleset | UnusableInput] = {}
+    for one in rulesets(paths, scope.reading, scope.domain):
+        path = one.path if isinstance(one, UnusableInput) else one.source.path
+        by_place.setdefault(os.path.realpath(path), one)  # a file may have several paths
+    found = list(by_place.values())
     if chosen and len(found) > 1:
         raise click.UsageError("--fix CODE:N needs exactly one file")
     if "-" in paths and not only_show:
         raise click.UsageError("standard input cannot be changed in place; add --diff to show the change")
+    errors = [one.error for one in found if isinstance(one, UnusableInput)]
+    unreadable = [error for error in errors if isinstance(error, UnreadableFile)]
+    if unreadable:
+        for error in unreadable:
+            complain(error)
+        tell("nothing was written; a value of --fix is a code and a number, such as SLEEC101:1")
+        return exits.UNUSABLE
+    if not chosen:
+        for ruleset in found:
+            if not isinstance(ruleset, UnusableInput):
+                _require_own_meaning(ruleset, scope)
     changed = failed = 0
     for ruleset in found:
         try:
@@ -61,6 +79,22 @@ def apply(
     if failed:
         return exits.UNUSABLE
     return (exits.FINDINGS if changed else exits.HOLDS) if only_show else None
+
+
+def _require_own_meaning(ruleset: Ruleset, scope: Scope) -> None:
+    """Raise `UsageError` if the options give the rules another meaning than the whole text has on its own."""
+    if scope.domain is not None and ruleset.domains:
+        option = "--domain"
+    elif parse_source(ruleset.source).reading != ruleset.reading:
+        option = "--reading"
+    elif not scope.chains:
+        option = "--no-chains"
+    else:
+        return
+    raise click.UsageError(
+        f"--fix without a value keeps the meaning of the whole file, so it cannot be combined with {option}; "
+        "leave it out, or choose a repair with --fix CODE:N"
+    )
 
 
 def _fix_one(

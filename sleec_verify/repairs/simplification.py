@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from sleec_runtime.model import Ruleset
 from sleec_verify.checks import run_checks
+from sleec_verify.checks.misread_names import MISREAD_NAME
 from sleec_verify.encoding.trace_scope import Untimed
 from sleec_verify.repairs.operators import REMOVALS
 from sleec_verify.repairs.repair import Repair
 from sleec_verify.repairs.search import RepairSearch
-from sleec_verify.results.finding import CheckResult
+from sleec_verify.results.finding import CheckResult, Finding
+from sleec_verify.results.suppressions import suppressions
 
 _CODES = frozenset((*REMOVALS, "SLEEC507", "SLEEC508", "SLEEC513"))
 """The findings that are repaired without a question, if the repair keeps the meaning."""
@@ -30,15 +33,16 @@ def simplifications(
 
     Each is one of the rules after the repair before it, until there are no more. One at a time, because a repair may
     make another one wrong: of two equal rules, each is redundant as long as the other is there. The last of them goes
-    first. `results` are those of `ruleset`, made with the same options. Each repair costs some checks.
+    first. A finding that a comment allows stays. `results` are those of `ruleset`, made with the same options. Each
+    repair costs some checks.
     """
     while True:
         search = RepairSearch(ruleset, results, domain, untimed, chains)
-        findings = [
-            finding for result in results for finding in result.findings if finding.code in (*_CODES, _ONE_NAME)
-        ]
+        findings = _open(ruleset, [f for result in results for f in result.findings if f.code in (*_CODES, _ONE_NAME)])
+        has_misread_names = any(result.findings for result in results if result.name == MISREAD_NAME.name)
+        needed = _declared(ruleset) if has_misread_names else frozenset[str]()
         ordered = sorted(findings, key=lambda finding: finding.span, reverse=True)
-        kept = (one for finding in ordered for one in search.repairs(finding) if _needs_no_decision(one))
+        kept = (one for finding in ordered for one in search.repairs(finding) if _needs_no_decision(one, needed))
         repair = next(kept, None)
         if repair is None:
             return
@@ -47,5 +51,31 @@ def simplifications(
         results = run_checks(ruleset, None, domain, untimed=untimed, chains=chains)
 
 
-def _needs_no_decision(repair: Repair) -> bool:
-    return repair.effect.keeps_meaning or repair.finding.code == _ONE_NAME
+def _open(ruleset: Ruleset, findings: Sequence[Finding]) -> list[Finding]:
+    """The findings without those that a comment allows, at their place or in any line of their rule. A rule that may
+    stay without effect is not removed for the sake of another finding."""
+    allowing = suppressions(ruleset)[0]
+    allowed = [f for f in findings if any(one.covers(ruleset, _of_whole_rule(ruleset, f)) for one in allowing)]
+    kept = {rule for finding in allowed if finding.code in REMOVALS for rule in finding.rules}
+    return [
+        finding
+        for finding in findings
+        if finding not in allowed and not (finding.code in REMOVALS and kept.intersection(finding.rules))
+    ]
+
+
+def _of_whole_rule(ruleset: Ruleset, finding: Finding) -> Finding:
+    rules = tuple((ruleset.by_label[label].span, "its rule") for label in finding.rules[:1])
+    return replace(finding, related=(*finding.related, *rules))
+
+
+def _declared(ruleset: Ruleset) -> frozenset[str]:
+    """The declared names. One that no rule uses may be the one that the author meant by a misread name."""
+    measures = (name for name, measure in ruleset.measures.items() if measure.declared)
+    return frozenset[str]().union(*ruleset.declared.values(), measures, ruleset.constants)
+
+
+def _needs_no_decision(repair: Repair, needed: frozenset[str]) -> bool:
+    if repair.finding.code == _ONE_NAME:
+        return True
+    return repair.effect.keeps_meaning and needed <= _declared(repair.repaired)

@@ -63,6 +63,73 @@ def test_fix_changes_several_files(cli: Cli, tmp_path: Path) -> None:
     assert (tmp_path / "b.sleec").read_text() == "WHEN"
 
 
+@pytest.mark.parametrize("value", ["1", "SLEEC301-1", "folder/"])
+def test_a_path_that_cannot_be_read_stops_everything(value: str, cli: Cli, tmp_path: Path) -> None:
+    (tmp_path / "folder").mkdir()
+    ran = cli("check", "--fix", value, "a.sleec", files={"a.sleec": CONFLICT + DEAD})
+    assert ran.code == 2
+    assert "nothing was written; a value of --fix is a code and a number" in ran.err
+    assert ran.out == ""
+    assert (tmp_path / "a.sleec").read_text() == CONFLICT + DEAD
+
+
+def test_a_file_with_two_paths_is_fixed_once(cli: Cli, tmp_path: Path) -> None:
+    ran = cli("check", "--fix", "a.sleec", "./a.sleec", str(tmp_path / "a.sleec"), files={"a.sleec": CONFLICT + DEAD})
+    assert "was changed since" not in ran.err
+    assert ran.code == 1
+    assert (tmp_path / "a.sleec").read_text() == CONFLICT
+
+
+EVERYWHERE = """\
+RULE everywhere
+WHEN the user falls AND the user is alone THEN call the nurse
+DOMAIN hospital
+RULE ward
+WHEN the user falls THEN call the nurse
+DOMAIN home
+RULE rest
+WHEN the user sleeps THEN be quiet
+"""
+
+
+@pytest.mark.parametrize("option", ["--domain hospital", "--reading priority", "--no-chains"])
+def test_fix_alone_keeps_the_meaning_of_the_whole_file(option: str, cli: Cli, tmp_path: Path) -> None:
+    ran = cli("check", "--fix", *option.split(), "a.sleec", files={"a.sleec": EVERYWHERE})
+    assert ran.code == 2
+    name = option.split()[0]
+    assert f"--fix without a value keeps the meaning of the whole file, so it cannot be combined with {name}" in ran.err
+    assert (tmp_path / "a.sleec").read_text() == EVERYWHERE
+
+
+@pytest.mark.parametrize("option", ["--domain ward", "--reading cascade"])
+def test_an_option_that_changes_no_meaning_goes_with_fix(option: str, cli: Cli, tmp_path: Path) -> None:
+    assert cli("check", "--fix", *option.split(), "a.sleec", files={"a.sleec": CONFLICT + DEAD}).code == 1
+    assert (tmp_path / "a.sleec").read_text() == CONFLICT
+
+
+ALLOWED = "// sleec: allow {} because lawyers want it twice"
+TWICE = "RULE a\nWHEN Bell THEN Speak\n{}RULE b\nWHEN Bell THEN Speak{}\n"
+
+
+@pytest.mark.parametrize("code", ["SLEEC509", "duplicate-rule"])
+@pytest.mark.parametrize("behind", [True, False])
+def test_fix_alone_keeps_what_a_comment_allows(behind: bool, code: str, cli: Cli, tmp_path: Path) -> None:
+    comment = ALLOWED.format(code)
+    text = TWICE.format("", f" {comment}") if behind else TWICE.format(f"{comment}\n", "")
+    ran = cli("check", "--fix", "a.sleec", files={"a.sleec": text})
+    assert ran.err == "a.sleec: nothing to fix without a decision\n"
+    assert (tmp_path / "a.sleec").read_text() == text
+
+
+def test_fix_alone_keeps_declarations_beside_a_misread_name(cli: Cli, tmp_path: Path) -> None:
+    text = (
+        "MEASURE age: number // from the id card\nCONDITION polite\nWHEN the user comes THEN greet\n"
+        "UNLESS age is under 6 years IN WHICH CASE wave\n"
+    )
+    cli("check", "--fix", "a.sleec", files={"a.sleec": text})
+    assert (tmp_path / "a.sleec").read_text() == text
+
+
 def test_diff_shows_and_writes_nothing(cli: Cli, tmp_path: Path) -> None:
     ran = cli("check", "--fix", "--diff", "a.sleec", files={"a.sleec": CONFLICT + DEAD})
     assert ran.code == 1

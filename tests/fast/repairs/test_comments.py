@@ -50,7 +50,7 @@ def test_an_operator_that_fails_hides_no_other_repair(monkeypatch: pytest.Monkey
     results = run_checks(ruleset)
     (conflict,) = (one for one in findings(results) if one.code == "SLEEC101")
     before = RepairSearch(ruleset, results).repairs(conflict)
-    monkeypatch.setitem(OPERATORS, "SLEEC101", (fails, *OPERATORS["SLEEC101"]))  # type: ignore[arg-type]
+    monkeypatch.setitem(OPERATORS, "SLEEC101", (fails, *OPERATORS["SLEEC101"]))
     search = RepairSearch(ruleset, results)
     assert len(search.repairs(conflict)) == len(before)
     assert search.undecided == "internal error: ValueError: substring not found"
