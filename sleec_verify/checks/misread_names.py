@@ -156,12 +156,25 @@ MISREAD_NAME = Check(
             "SLEEC525",
             "warning",
             "two names that differ only slightly",
-            "Two names differ only by an article, by capitals, by singular and plural, by the form of a verb, or by "
-            "one letter. They are two names. A rule about one does not conflict with a rule about the other.",
+            "Two names differ only by an article, by capitals, or by singular and plural. They are two names. A rule "
+            "about one does not conflict with a rule about the other.",
             "Use one spelling everywhere. If you mean two different things, choose names that differ more, or allow "
             "one with a comment: // sleec: allow SLEEC525 because REASON.",
             "WHEN the user falls THEN call the nurse\nWHEN the user rings THEN call nurse\n",
             "WHEN the user falls THEN call the nurse\nWHEN the user rings THEN call the nurse\n",
+        ),
+        FindingKind(
+            "SLEEC526",
+            "note",
+            "a name that may be a slip",
+            "A name that is used once differs from a more frequent name by one letter, by `is` and `are`, or by the "
+            "form of its first verb. They are two names. A rule about one does not conflict with a rule about the "
+            "other.",
+            f"If you mean the same, use one spelling everywhere. {_if_meant('SLEEC526')}",
+            "WHEN the user falls THEN call the nurse\nWHEN the user rings THEN call the nurse\n"
+            "WHEN the alarm rings THEN call the nruse\n",
+            "WHEN the user falls THEN call the nurse\nWHEN the user rings THEN call the nurse\n"
+            "WHEN the alarm rings THEN call the nurse\n",
         ),
     ),
     _misread,

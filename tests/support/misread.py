@@ -7,7 +7,7 @@ from sleec_verify.checks import run_checks
 from sleec_verify.checks.misread_names import MISREAD_NAME, replacements
 from sleec_verify.results.finding import Finding
 
-NEGATION, MODAL, COMPARISON, OPPOSITES, KEYWORD, SIMILAR = (kind.code for kind in MISREAD_NAME.kinds)
+NEGATION, MODAL, COMPARISON, OPPOSITES, KEYWORD, SIMILAR, SLIP = (kind.code for kind in MISREAD_NAME.kinds)
 
 
 def misread(text: str) -> list[Finding]:

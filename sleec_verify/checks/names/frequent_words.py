@@ -15,11 +15,11 @@ gate gift give glad glass glove goal gold good grab grass great green greet grou
 hall hand handle hang hard head heal hear heart heat heavy heel held help here hide high hill hire hold hole home hook
 hope horn horse host hour house hunt hurt inform kick kind kitchen knee knife knock know lady lamp land large last
 late later laugh lead leaf leak lean learn leave left less letter level lift light like line link list listen live
-load local lock long look loose lose loud love lower lunch mail main make male mark mask match matter meal mean
-measure meat medicine meet melt menu message mild milk mind miss mode money month moon more most mouse mouth move much
-music nail name near neat neck need nest news next nice noise north nose note nurse offer older open order oven over
-pace pack page pain paint pair pale paper parent park part pass past paste path pause pay peak pick piece pill pillow
-pilot pipe place plain plan plane plant plate play plug point police poor port pose post pour power praise
+load local lock long look loose lose loud love lower lunch mail main make male mark mask massage match matter meal
+mean measure meat medicine meet melt menu message mild milk mind miss mode money month moon more most mouse mouth move
+much music nail name near neat neck need nest news next nice noise north nose note nurse offer older open order oven
+over pace pack page pain paint pair pale paper parent park part pass past paste path pause pay peak pick piece pill
+pillow pilot pipe place plain plan plane plant plate play plug point police poor port pose post pour power praise
 press print prize proof pull pump purse push quick quiet quite race rain raise rate reach react read ready real rear
 relax remind report rest return rice rich ride right ring rise risk road robot rock role roll roof room root rope rose
 round rule rush safe sail salt same sand save school scream screen seat second seed seek seem sell send sense serve
@@ -36,4 +36,4 @@ waste watch water wave weak wear week weigh weight well west wheel when where wh
 window wine wing wipe wire wish with wood word work world worry wound write wrong yard year yellow young
 """
 FREQUENT_WORDS = frozenset(_WORDS.split())
-"""If two names differ by two of these, neither is a misspelling of the other."""
+"""None of these is a misspelling of another word."""

@@ -9,7 +9,7 @@ from sleec_runtime.model import DeclaredKind
 KINDS: tuple[DeclaredKind, ...] = ("trigger", "condition", "obligation")
 """What names stand for. Measures count as conditions."""
 
-NEGATION, MODAL, COMPARISON, OPPOSITE, FOREIGN_KEYWORD, SIMILAR = range(6)
+NEGATION, MODAL, COMPARISON, OPPOSITE, FOREIGN_KEYWORD, SIMILAR, SLIP = range(7)
 """The kinds of misreading, in the order of their codes."""
 
 

@@ -6,10 +6,11 @@ import re
 from collections.abc import Iterable, Mapping
 
 ARTICLES = frozenset({"the", "a", "an"})
+_IS_OR_ARE = {"are": "is", "were": "was", "has": "have"}
+VERBS_OF_NUMBER = frozenset({*_IS_OR_ARE, *_IS_OR_ARE.values()})
+"""The verbs that say whether one is meant, or several."""
 _IRREGULAR = {
-    "are": "is",
-    "were": "was",
-    "has": "have",
+    **_IS_OR_ARE,
     "does": "do",
     "goes": "go",
     "children": "child",
@@ -46,8 +47,17 @@ def stems_of_each(names: Iterable[str]) -> tuple[list[str], Mapping[str, str]]:
 
 
 def singulars(name: str) -> list[str]:
-    """What names have in common that differ only by articles, case or a final `s`."""
-    return [singular(word) for word in _words([name]) if word not in ARTICLES]
+    """What names have in common that differ only by articles, case, or singular and plural. `is` and `are` differ."""
+    words = (word for word in words_of_each([name])[0] if word not in ARTICLES)
+    return [word if word in VERBS_OF_NUMBER else _without_number(word) for word in words]
+
+
+def _without_number(word: str) -> str:
+    """The same text for `lady` and `ladies`, and for `box` and `boxes`. It need not be a word."""
+    word = singular(word)
+    if word.endswith("y"):
+        return f"{word[:-1]}i"
+    return word[:-1] if word.endswith(("xe", "che", "she")) else word
 
 
 def _words(names: Iterable[str]) -> list[str]:

@@ -12,7 +12,7 @@ from sleec_verify.repairs.statement_edits import replaced, without
 from sleec_verify.results.finding import Finding
 from sleec_verify.results.phrases import counted, quoted
 
-_SIMILAR = "SLEEC525"
+_OTHER_NAME = ("SLEEC525", "SLEEC526")
 
 
 def names(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -22,7 +22,7 @@ def names(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
         edits = tuple(edit for span, text in changes for edit in _edits(ruleset, span, text))
         written = ruleset.source.text[slice(*finding.span)]
         places = f" in {counted(len(changes), 'place')}" if len(changes) > 1 else ""
-        operator: Operator = "renaming" if finding.code == _SIMILAR else "canonical-form"
+        operator: Operator = "renaming" if finding.code in _OTHER_NAME else "canonical-form"
         yield Candidate(operator, f"replace {quoted(written)} with {quoted(changes[0][1])}{places}", edits)
 
 

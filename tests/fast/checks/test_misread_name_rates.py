@@ -13,7 +13,7 @@ from sleec_verify.checks import run_checks
 from sleec_verify.checks.misread_names import MISREAD_NAME
 from sleec_verify.encoding.name_uses import names_used
 from sleec_verify.files.toml import read_toml
-from tests.support.misread import COMPARISON, KEYWORD, MODAL, NEGATION, OPPOSITES, SIMILAR, codes
+from tests.support.misread import COMPARISON, KEYWORD, MODAL, NEGATION, OPPOSITES, SIMILAR, SLIP, codes
 from tests.support.paths import ROOT
 from tests.support.studies import OWN, PUBLISHED
 
@@ -82,8 +82,10 @@ def planted(draw: st.DrawFn) -> tuple[str, str]:
             lambda: actions + obligation(action.replace(" the ", " ")),
             lambda: actions + obligation(action.capitalize()),
             lambda: actions + obligation(f"{action}s"),
-            lambda: actions + obligation(f"{verb} the {noun[:letter]}{noun[letter + 1 :]}"),
-            lambda: actions + obligation(f"{verb} the {noun[:letter]}x{noun[letter:]}"),
+        ],
+        SLIP: [
+            lambda: actions * 2 + obligation(f"{verb} the {noun[:letter]}{noun[letter + 1 :]}"),
+            lambda: actions * 2 + obligation(f"{verb} the {noun[:letter]}x{noun[letter:]}"),
         ],
     }
     code = draw(st.sampled_from(sorted(kinds)))

@@ -6,7 +6,17 @@ import pytest
 
 from sleec_runtime.errors import LanguageError
 from sleec_runtime.language import parse
-from tests.support.misread import COMPARISON, KEYWORD, MODAL, NEGATION, OPPOSITES, SIMILAR, codes, corrected, misread
+from tests.support.misread import (
+    COMPARISON,
+    KEYWORD,
+    MODAL,
+    NEGATION,
+    OPPOSITES,
+    SIMILAR,
+    codes,
+    corrected,
+    misread,
+)
 
 BESIDE = "WHEN the user calls THEN take care\nUNLESS it is night IN WHICH CASE leave\n"
 """Rules with names that the examples negate."""
@@ -152,39 +162,6 @@ def test_opposites_that_nothing_relates(one: str, other: str) -> None:
         assert not misread(relation + text)
 
 
-SIMILAR_NAMES = [
-    ("take photo", "take photos"),
-    ("Call the nurse", "call the nurse"),
-    ("call nurse", "call the nurse"),
-    ("call the nurse", "calls the nurse"),
-    ("calling the nurse", "call the nurse"),
-    ("call the nurse", "call the nursse"),
-    ("call the nruse", "call the nurse"),
-    ("CallTheNurse", "call_the_nurse"),
-    ("OpenWindow", "OpenWindows"),
-]
-
-
-@pytest.mark.parametrize(("one", "other"), SIMILAR_NAMES)
-def test_similar_names(one: str, other: str) -> None:
-    """The more frequent name is kept, wherever it stands."""
-    rules = "WHEN the bell rings THEN {}\nWHEN the user sleeps THEN NOT {}\nWHEN the user falls THEN {}\n"
-    for written in ((one, other, other), (other, one, other), (other, other, one)):
-        text = rules.format(*written)
-        (finding,) = misread(text)
-        assert finding.code == SIMILAR
-        assert text[finding.span.start : finding.span.end] == one
-        assert [text[span.start : span.end] for span, _ in finding.related] == [other]
-        assert corrected(text) == rules.format(other, other, other)
-
-
-def test_several_variants_become_one_name() -> None:
-    names = ["call the nurse", "call nurse", "Call the nurse", "call the nurses", "call the nurse"]
-    text = "".join(f"WHEN bell {chr(97 + at)} rings THEN {name}\n" for at, name in enumerate(names))
-    assert codes(text) == [SIMILAR] * 3
-    assert corrected(text) == "".join(f"WHEN bell {chr(97 + at)} rings THEN call the nurse\n" for at in range(5))
-
-
 def test_every_place_of_a_name_changes_and_nothing_else() -> None:
     text = (
         "# Call the nurse, if you must.\nEXCLUSIVE Call the nurse, stay\n\nDOMAIN Call the nurse\n"
@@ -195,12 +172,6 @@ def test_every_place_of_a_name_changes_and_nothing_else() -> None:
     text = text.replace("OTHERWISE call the nurse", "OTHERWISE stay")
     changed = text.replace("EXCLUSIVE Call", "EXCLUSIVE call").replace("(Call\n  the nurse", "(call the nurse")
     assert corrected(text) == changed
-
-
-def test_an_event_and_a_state_may_differ_by_the_form_of_the_verb() -> None:
-    states = "WHEN the alarm sounds THEN go\nWHEN the user calls THEN answer UNLESS the alarm {} IN WHICH CASE wait\n"
-    assert not codes(states.format("sounding"))
-    assert codes(states.format("sound")) == [SIMILAR]
 
 
 DECLARED = "TRIGGER the bell rings\nCONDITION the child is under 6\nOBLIGATION not leave, leave, leaves\n"
@@ -238,28 +209,6 @@ def test_a_comment_at_a_definition_allows_a_variant_in_the_dsl() -> None:
 def test_a_name_is_corrected_to_the_declared_one() -> None:
     text = "TRIGGER a guest waits\nWHEN a guest waits THEN greet UNLESS a guest wait AND (asleep OR a guest wait)\n"
     assert corrected(text) == text.replace("a guest wait ", "a guest waits ").replace("a guest wait)", "a guest waits)")
-
-
-def test_a_label_of_the_dsl_is_no_place_of_a_name() -> None:
-    text = (
-        "def_start\nevent Called\nevent TakePhoto\nevent TakePhotos\ndef_end\nrule_start\n"
-        "TakePhotos when Called then TakePhotos\nR2 when TakePhotos then TakePhoto\n"
-        "R3 when TakePhotos then TakePhotos within 1 minutes otherwise TakePhoto\nrule_end\n"
-        "purpose_start\nTakePhoto exists TakePhotos\npurpose_end\n"
-    )
-    changed = text.replace("TakePhoto\n", "TakePhotos\n")
-    assert corrected(text) == changed
-
-
-def test_the_dsl_has_similar_names_only() -> None:
-    text = (
-        "def_start\nevent Called\nevent TakePhoto\nevent TakePhotos\nmeasure notAsleep: boolean\n"
-        "measure asleep: boolean\ndef_end\nrule_start\nR1 when Called then TakePhoto\n"
-        "R2 when Called and {notAsleep} and {asleep} then not TakePhotos\nrule_end\n"
-    )
-    (finding,) = misread(text)
-    assert finding.code == SIMILAR
-    assert finding.rules == ("R2",)
 
 
 FINE = [

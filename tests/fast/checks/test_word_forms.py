@@ -56,3 +56,19 @@ def test_many_names_are_treated_as_each_alone() -> None:
 def test_plurals_are_not_other_forms_of_a_verb() -> None:
     assert singulars("the alarm rings") == singulars("alarm ring")
     assert singulars("the alarm rings") != singulars("the alarm ringing")
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [("take photo", "take photos"), ("call the lady", "call ladies"), ("a box", "boxes"), ("try", "tries")],
+)
+def test_singular_and_plural(one: str, other: str) -> None:
+    assert singulars(one) == singulars(other)
+
+
+@pytest.mark.parametrize(
+    ("one", "other"), [("the hand is up", "the hands are up"), ("is charged", "is charging"), ("walks", "walked")]
+)
+def test_more_than_number(one: str, other: str) -> None:
+    assert singulars(one) != singulars(other)
+    assert stems(one) == stems(other)

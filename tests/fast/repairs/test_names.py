@@ -38,3 +38,12 @@ def test_variants_need_no_decision_but_the_meaning_of_words_does() -> None:
     ruleset = parse(text)
     *_, last = simplifications(ruleset, run_checks(ruleset))
     assert last.repaired.source.text == text.replace("photo AND", "photos AND")
+
+
+@pytest.mark.parametrize("wrong", ["calling the nurse", "call the nruse"])
+def test_a_slip_is_renamed_only_on_request(wrong: str) -> None:
+    right = "WHEN r THEN call the nurse\nWHEN s THEN call the nurse\n"
+    text = f"{right}WHEN t THEN {wrong}\n"
+    assert texts_after(text, repairs_of(text, "SLEEC526")) == [f"{right}WHEN t THEN call the nurse\n"]
+    ruleset = parse(text)
+    assert all(one.finding.code != "SLEEC526" for one in simplifications(ruleset, run_checks(ruleset)))
