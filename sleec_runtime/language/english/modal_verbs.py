@@ -6,7 +6,6 @@ obligation ``leave``, and ``must not leave`` is ``NOT leave``. Permissions such 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 _SUBJECT = ("the", "robot")
@@ -27,6 +26,12 @@ STARTS = frozenset({_SUBJECT[0], *(words[0] for words, _ in _FORMS)})
 _UNCLEAR = frozenset({"only", "not", "always"})
 """Words after a form that change its meaning: ``must not only``."""
 
+_OMISSIONS = frozenset({"fail", "forget", "neglect", "omit"})
+"""Verbs that deny the action after them: ``must not fail to leave`` requires ``leave``."""
+
+_NECESSITIES = (("have", "to"), ("need", "to"))
+"""Words that a negation makes a permission: ``should not have to leave``."""
+
 
 class ModalVerb(NamedTuple):
     """A modal verb of this many words, with the subject before it."""
@@ -40,7 +45,7 @@ def small_word(word: str) -> str:
     return word.casefold().replace("\u2019", "'")
 
 
-def modal_verb(words: Sequence[str]) -> ModalVerb | None:
+def modal_verb(words: list[str]) -> ModalVerb | None:
     """The modal verb at the start of a phrase of these `small_word`s; None if there is none, or if its meaning is
     unclear, as in ``must never not``."""
     first = len(_SUBJECT) if tuple(words[:2]) == _SUBJECT else 0
@@ -48,6 +53,14 @@ def modal_verb(words: Sequence[str]) -> ModalVerb | None:
         end = first + len(form)
         if tuple(words[first:end]) == form:
             behind = words[end:]
-            is_clear = not behind or (behind[0] not in _UNCLEAR and modal_verb(behind) is None)
-            return ModalVerb(end, forbids) if is_clear else None
+            if forbids and behind and behind[0] in _OMISSIONS:
+                denies = behind[1:2] == ["to"] and _is_clear(behind[2:]) and _OMISSIONS.isdisjoint(behind[2:3])
+                return ModalVerb(end + 2, False) if denies else None
+            is_permission = forbids and tuple(behind[:2]) in _NECESSITIES
+            return ModalVerb(end, forbids) if _is_clear(behind) and not is_permission else None
     return None
+
+
+def _is_clear(words: list[str]) -> bool:
+    """Whether none of the words after a form changes its meaning."""
+    return not words or (words[0] not in _UNCLEAR and modal_verb(words) is None)

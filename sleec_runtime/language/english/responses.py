@@ -10,7 +10,7 @@ from __future__ import annotations
 from sleec_runtime.language.common.problems import quoted
 from sleec_runtime.language.common.token_cursor import ALTERNATIVE_LEVELS, MAX_DEPTH
 from sleec_runtime.language.english.keywords import ALTERNATIVES, IN_WHICH_CASE, PHRASE, STATEMENTS
-from sleec_runtime.language.english.modal_verbs import STARTS, modal_verb
+from sleec_runtime.language.english.modal_verbs import STARTS, ModalVerb, modal_verb
 from sleec_runtime.language.english.phrases import OBLIGATION
 from sleec_runtime.language.english.windows import EnglishTimeParser
 from sleec_runtime.model import Clause, Obligation, Span, Timing
@@ -106,11 +106,28 @@ class EnglishResponseParser(EnglishTimeParser):
     # Obligations ----------------------------------------------------------------------------------------------
 
     def _obligations(self, found: list[Obligation], of_hedge: bool = False) -> tuple[Obligation, ...]:
+        first = self.at
         self._literals(found, of_hedge)
         while self.kinds[self.at] == "AND":
-            self.at += 1
+            is_worded_prohibition = found[-1].negated and self.kinds[first] == "word"
+            first = self.at = self.at + 1
+            if is_worded_prohibition:
+                self._require_own_form(first, found[-1].name)
             self._literals(found, of_hedge)
         return tuple(found)
+
+    def _require_own_form(self, first: int, forbidden: str) -> None:
+        """Refuses ``must not shout AND run``: people read that both are forbidden, but NOT forbids only one."""
+        while self.kinds[first] == "(":
+            first += 1
+        if self.kinds[first] == "word" and self._modal_verb_at(first) is None:
+            name = self.name_at(first)
+            self.problem(
+                f"it is unclear whether {quoted(name)} is forbidden, too",
+                self.token_span(first),
+                f"write NOT {forbidden} AND NOT {name} to forbid both, or NOT {forbidden} AND {name} to require the "
+                "second one",
+            )
 
     def _literals(self, found: list[Obligation], of_hedge: bool) -> None:
         """One obligation, or several in parentheses."""
@@ -145,7 +162,7 @@ class EnglishResponseParser(EnglishTimeParser):
         at_name = self.at
         if self.kinds[at_name] != "word":
             self.refuse_name(OBLIGATION, self._hint_at_obligation())
-        if not negated and self.small_word(at_name) in STARTS:
+        if not negated:
             negated = self._modal_verb()
             at_name = self.at
         name = self.name(OBLIGATION)
@@ -158,15 +175,9 @@ class EnglishResponseParser(EnglishTimeParser):
         return timed or Obligation(name, negated, self.span(first) if negated else span)
 
     def _modal_verb(self) -> bool:
-        """Skips a modal verb before the name, unless the text has the whole phrase as a name outside responses, such
-        as in a declaration. Whether it forbids the obligation."""
+        """Skips a modal verb before the name. Whether it forbids the obligation."""
         first = self.at
-        if self.name_at(first) in self.positions.outside_responses:
-            return False
-        end = first
-        while self.kinds[end] in PHRASE or self.kinds[end] == "NOT":
-            end += 1
-        found = modal_verb([self.small_word(token) for token in range(first, min(end, first + MAX_DEPTH))])
+        found = self._modal_verb_at(first)
         if found is None:
             return False
         if self.kinds[first + found.words] != "word":
@@ -177,6 +188,16 @@ class EnglishResponseParser(EnglishTimeParser):
             )
         self.at += found.words
         return found.forbids
+
+    def _modal_verb_at(self, first: int) -> ModalVerb | None:
+        """The modal verb at token `first`, unless the text has the whole phrase as a name outside responses, such as
+        in a declaration."""
+        if self.small_word(first) not in STARTS or self.name_at(first) in self.positions.outside_responses:
+            return None
+        end = first
+        while self.kinds[end] in PHRASE or self.kinds[end] == "NOT":
+            end += 1
+        return modal_verb([self.small_word(token) for token in range(first, min(end, first + MAX_DEPTH))])
 
     def _timed(self, name: str, negated: bool, first: int) -> Obligation:
         """The obligation with the time and the alternatives at hand."""

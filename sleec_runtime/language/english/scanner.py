@@ -110,6 +110,7 @@ def scan(text: str) -> Tokens:
         starts.append(len(text))
         ends.append(len(text))
     _mark_occasions(kinds)
+    _mark_inside_sentences(text, kinds, starts, ends)
     comments, closing = attach_comments(raw_comments, text, kinds, starts, ends, LINE_STARTS, SETTINGS)
     return Tokens(text, kinds, starts, ends, comments, closing)
 
@@ -129,3 +130,23 @@ def _mark_occasions(kinds: list[str]) -> None:
                 kinds[behind] = OCCASION
             elif keyword == "RELATION" and kinds[behind] == "ALWAYS":
                 kinds[behind] = "word"
+
+
+def _mark_inside_sentences(text: str, kinds: list[str], starts: array[int], ends: array[int]) -> None:
+    """Marks each NEVER and ALWAYS that would divide a sentence in two, as in ``the robot NEVER leaves``: those that
+    follow a plain word, a phrase or a parenthesis in the same line."""
+    for keyword in ("NEVER", "ALWAYS"):
+        at = -1
+        for _ in range(kinds.count(keyword)):
+            at = kinds.index(keyword, at + 1)
+            if at == 0 or "\n" in text[ends[at - 1] : starts[at]]:
+                continue
+            before = kinds[at - 1]
+            is_phrase = before in PHRASE and kinds[at - 2] in PHRASE
+            if is_phrase or before == ")" or (before == "word" and _is_plain(text[starts[at - 1] : ends[at - 1]])):
+                kinds[at] = "strange"
+
+
+def _is_plain(word: str) -> bool:
+    """Whether this is a plain word, and no name such as `OpenCurtains`, `open_curtains` or `B`."""
+    return "_" not in word and (word.islower() or word[1:].islower())

@@ -33,9 +33,11 @@ _REPLACEMENTS = {
     ":=": "write =",
     **dict.fromkeys(("->", "-->", "\u2192"), "write THEN"),
     "%": "write the number alone, and the unit in the measure's name",
+    "NEVER": "inside a sentence, write NOT before what is forbidden or false; a NEVER statement begins a line",
+    "ALWAYS": "inside a sentence, leave it out; an ALWAYS statement begins a line",
     "/": "comments start with // or #",
 }
-"""What to write instead of characters that the language does not use."""
+"""What to write instead of characters that the language does not use, and of keywords inside a sentence."""
 
 
 class EnglishCursor(TokenCursor):

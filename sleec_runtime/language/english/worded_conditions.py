@@ -13,7 +13,7 @@ from sleec_runtime.language.common.comparisons import Side
 from sleec_runtime.language.common.formula_parser import FormulaParser
 from sleec_runtime.language.common.token_cursor import composed
 from sleec_runtime.language.english.comparison_words import comparison_words
-from sleec_runtime.language.english.keywords import PHRASE
+from sleec_runtime.language.english.keywords import PHRASE, STATEMENTS
 from sleec_runtime.language.english.name_resolution import EnglishNames
 from sleec_runtime.language.english.phrases import EnglishPhraseParser
 from sleec_runtime.model import And, Atom, Comparison, Formula, Not, Operator, Rational, Span, Truth
@@ -65,7 +65,7 @@ class EnglishWordedConditionParser(EnglishPhraseParser, FormulaParser):
         if behind is None:
             return None
         name = self.joined_name(first, behind)
-        found = comparison_words(words[behind - first :], lasting=self.resolve == self.names.assumed)
+        found = comparison_words(words[behind - first :], lasting=self._is_whole_assumption(first, end))
         if found is None:
             return None
         at = behind + found.words
@@ -83,6 +83,12 @@ class EnglishWordedConditionParser(EnglishPhraseParser, FormulaParser):
                 self.depth -= 1
                 return And(bounds, self.span(first))
         return None
+
+    def _is_whole_assumption(self, first: int, end: int) -> bool:
+        """Whether the phrase from `first` to before `end` is all that an ASSUME says."""
+        if self.small_word(first - 1) == "the":
+            first -= 1
+        return self.kinds[first - 1] == "ASSUME" and (self.kinds[end] in STATEMENTS or self.kinds[end] in (".", "end"))
 
     def _end_of_measure(self, first: int, end: int) -> int | None:
         """The end of the longest name of a measure with which the phrase begins and does not end."""

@@ -104,6 +104,37 @@ def test_mistakes_are_reported(text: str, message: str) -> None:
     assert problem.message.startswith(message)
 
 
+@pytest.mark.parametrize("keyword", ["NEVER", "ALWAYS"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "WHEN a THEN the robot {} leaves\n",
+        "WHEN a THEN robot {} leaves UNLESS c IN WHICH CASE d\n",
+        "WHEN a THEN greet\nUNLESS the user is {} alone IN WHICH CASE wave\n",
+        "WHEN a AND the user is {} alone THEN greet\n",
+        "WHEN a THEN leave WITHIN 5 minutes {} later\n",
+        "WHEN a THEN (leave AND wave) {} shout\n",
+        "ASSUME the user is {} alone\nWHEN a THEN greet\n",
+        "WHEN a THEN greet\nEXCLUSIVE greet, the robot {} leaves\nASSUME c\n",
+    ],
+)
+def test_no_statement_begins_inside_a_sentence(text: str, keyword: str) -> None:
+    with pytest.raises(LanguageError) as raised:
+        parse(text.format(keyword))
+    (problem,) = raised.value.problems
+    assert problem.message == f"unexpected `{keyword}`"
+    assert problem.hint is not None
+    assert problem.hint.startswith("inside a sentence, ")
+
+
+@pytest.mark.parametrize(
+    "before", ["WHEN a THEN greet.", "WHEN a THEN greet\n", "WHEN a THEN Greet_now", "WHEN a THEN B"]
+)
+def test_a_statement_begins_a_line_or_follows_a_stop_or_name(before: str) -> None:
+    assert [type(one) for one in parse(f"{before} NEVER leave alone").statements[1:]] == [Never]
+    assert len(parse(f"{before} ALWAYS smile").rules) == 2
+
+
 def test_what_contradicts_is_found_once() -> None:
     (conflict,) = findings(f"ALWAYS answer politely\nNEVER answer politely UNLESS the alarm rings\n{RULES}", "conflict")
     assert conflict.witness is not None

@@ -48,6 +48,17 @@ def test_the_form_means_its_canonical_form(written: str, canonical: str) -> None
         "THEN the robot leaves",
         "THEN must never not leave",
         "THEN NOT must not leave",
+        "THEN should not have to leave",
+        "THEN do not need to leave",
+        "THEN do not forget the keys",
+        "THEN must not fail",
+        "THEN must not fail to not leave",
+        "THEN never fail to forget to leave",
+        "THEN must not fail to never leave",
+        "ASSUME NOT age is never below 3",
+        "ASSUME c OR age is never below 3",
+        "ASSUME age is never below 3 AND c",
+        "ASSUME NOT age is always below 3",
         "UNLESS the child is under 6",
         "UNLESS age is under 6 years",
         "UNLESS age is high",
@@ -91,6 +102,7 @@ def test_what_is_a_name_outside_responses_stays_a_name(text: str) -> None:
         ("THEN must", "no obligation follows `must`"),
         ("THEN must NEVER leave", "no obligation follows `must`"),
         ("THEN do not", "no obligation follows `do not`"),
+        ("THEN must not fail to", "no obligation follows `must not fail to`"),
         ("UNLESS danger is hihg", "`hihg` is not a value of `danger`"),
         ("UNLESS danger is above 3", "`danger` is a scale and `3` is a number"),
         ("UNLESS age is under 1,5", "unexpected comma in the number `1,5`"),
@@ -101,6 +113,37 @@ def test_half_a_form_is_an_error(part: str, message: str) -> None:
         parse(whole(part))
     (problem,) = raised.value.problems
     assert problem.message.startswith(message)
+
+
+@pytest.mark.parametrize("prohibition", [row[0] for row in TABLE if row[1] == "THEN NOT leave"])
+@pytest.mark.parametrize("second", ["run", "run WITHIN 5 minutes", "(run AND wave)", "may run", "not run"])
+def test_one_modal_verb_for_two_obligations_is_an_error(prohibition: str, second: str) -> None:
+    with pytest.raises(LanguageError, match=r"it is unclear whether `.*run` is forbidden, too"):
+        parse(whole(f"{prohibition} AND {second}"))
+
+
+@pytest.mark.parametrize(
+    ("part", "canonical"),
+    [
+        ("THEN must not leave AND NOT run", "THEN NOT leave AND NOT run"),
+        ("THEN must not leave AND do not run", "THEN NOT leave AND NOT run"),
+        ("THEN must not leave AND (must run AND wave)", "THEN NOT leave AND run AND wave"),
+        ("THEN (must not leave) AND run", "THEN NOT leave AND run"),
+        ("THEN NOT leave AND run", "THEN NOT leave AND run"),
+        ("THEN must leave AND run", "THEN leave AND run"),
+    ],
+)
+def test_each_obligation_has_its_own_form(part: str, canonical: str) -> None:
+    assert parse(whole(part)) == parse(whole(canonical))
+
+
+FORBIDDING = ["must not", "the robot must not", "do not", "don't", "never", "must never", "cannot", "may not"]
+
+
+@pytest.mark.parametrize("form", FORBIDDING)
+@pytest.mark.parametrize("omission", ["fail", "forget", "neglect", "omit"])
+def test_what_must_not_be_omitted_is_due(form: str, omission: str) -> None:
+    assert parse(whole(f"THEN {form} {omission} to leave")) == parse(whole("THEN leave"))
 
 
 def test_the_spans_are_those_of_the_words() -> None:
