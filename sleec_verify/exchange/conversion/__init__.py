@@ -5,7 +5,7 @@ Constructs that the other language does not have are rejected, never dropped.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -71,14 +71,28 @@ def _declared(part: Ruleset) -> Ruleset:
     undeclared = part.triggers - part.declared["trigger"]
     if not undeclared <= {rule.trigger for rule in part.rules if rule.always is None}:
         part = replace(part, statements=(Declaration("trigger", tuple(sorted(undeclared))), *part.statements))
-    again = parse(print_ruleset(part))
+    again = parse(print_ruleset(replace(part, statements=tuple(_without_obligations(part.statements)))))
     kinds: tuple[tuple[DeclaredKind, frozenset[str], frozenset[str]], ...] = (
         ("trigger", part.triggers, again.triggers),
         ("condition", part.conditions, again.conditions),
         ("obligation", part.obligations, again.obligations),
     )
-    new = (Declaration(kind, tuple(sorted(names))) for kind, names, found in kinds if names - found)
+    events = part.declared["event"]
+    new = (
+        Declaration(kind, tuple(sorted(names)))
+        for kind, names, found in kinds
+        if names - found - part.declared[kind] - events
+    )
     return replace(part, statements=(*new, *part.statements))
+
+
+def _without_obligations(statements: Iterable[Statement]) -> Iterator[Statement]:
+    """The statements without declarations of obligations, which would reject a condition that is read as one."""
+    for statement in statements:
+        if isinstance(statement, Declaration) and statement.kind == "event":
+            yield replace(statement, kind="trigger", agent=None)
+        elif not isinstance(statement, Declaration) or statement.kind != "obligation":
+            yield statement
 
 
 def convert(ruleset: Ruleset, to: Target, reading: Reading | None = None) -> Conversion:

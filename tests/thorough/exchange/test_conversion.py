@@ -233,6 +233,13 @@ def test_names_stay_what_the_rules_of_other_domains_make_them(text, declared):
     )
 
 
+def test_a_condition_of_another_domain_stays_one_beside_declared_obligations():
+    text = "OBLIGATION X, Y DOMAIN a WHEN T THEN X UNLESS c DOMAIN b WHEN U THEN Y NEVER Y AND c"
+    part = of_domain(parse(text), "b")
+    assert "CONDITION c\n" in print_ruleset(part)
+    assert parse(print_ruleset(part)).conditions == part.conditions == {"c"}
+
+
 def test_a_rule_that_is_called_by_its_number_keeps_it():
     ruleset = parse("DOMAIN a WHEN T THEN X DOMAIN b WHEN U THEN Y")
     assert "RULE rule_2\n" in convert(of_domain(ruleset, "b"), "english").text
