@@ -4,12 +4,22 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator
+from functools import cache
 from typing import NamedTuple
 
 from sleec_runtime.model import Measure, Ruleset
+from sleec_verify.checks.names.measure_mentions import comparison_advice
 from sleec_verify.checks.names.misreading import COMPARISON, Misreading
 from sleec_verify.checks.names.word_forms import ARTICLES, stems
-from sleec_verify.checks.names.word_lists import COMPARATORS, DEGREES, NEGATED_OPERATORS, NUMBERS, PEOPLE, UNITS
+from sleec_verify.checks.names.word_lists import (
+    COMPARATORS,
+    CONTRACTIONS,
+    NEGATED_OPERATORS,
+    NUMBERS,
+    PEOPLE,
+    ROBOTS,
+    UNITS,
+)
 from sleec_verify.results.phrases import quoted
 
 _DIGIT = re.compile("[0-9]")
@@ -18,30 +28,45 @@ _IS = frozenset({"is", "are", "was", "were"})
 _VERBS = _IS | {"be", "been", "there", "has", "have", "had", "falls", "drops", "rises", "goes", "gets", "for"}
 _PRONOUNS = frozenset({"it", "this", "that"})
 _NOT = frozenset({"not", "never"})
+_BESIDE = frozenset({"old", "of", "age", "here", "there", "away", "present", "left", "now", "current", "currently"})
+"""Words beside a comparison that change nothing about it."""
 
 
 class _Bound(NamedTuple):
-    """`subject operator value`. `rest` are the words after it, and `has_is` says that `is` is after the subject."""
+    """`subject operator value`. `rest` are the words after it, `has_is` says that `is` is after the subject, and
+    `negations` is the number of words such as `not` that the operator includes."""
 
     subject: list[str]
     operator: str
     value: str
     rest: list[str]
     has_is: bool
+    negations: int
 
 
 def comparisons(ruleset: Ruleset, names: Iterable[str], with_is: bool = True) -> Iterator[Misreading]:
     """The comparisons that phrases contain: with a number, a constant, or a value of the scale of a measure. `with_is`
-    also finds `is` and a number, without a word that compares."""
+    also finds `is` and a number, without a word that compares.
+
+    A comparison has a text to write if it says all that the words of the phrase say.
+    """
     values = {value for measure in ruleset.measures.values() for value in measure.values} | ruleset.constants.keys()
     for name in names:
-        words = name.split()
+        words = _without_contractions(name)
         has_value = not (NUMBERS.keys().isdisjoint(map(str.casefold, words)) and values.isdisjoint(words))
-        if (
-            (has_value or _DIGIT.search(name))
-            and (found := _comparison(ruleset, values, name, words, with_is)) is not None
-        ) or (with_is and (found := _degree_of_measure(ruleset, name, words)) is not None):
+        if (has_value or _DIGIT.search(name)) and (
+            found := _comparison(ruleset, values, name, words, with_is)
+        ) is not None:
             yield found
+
+
+def _without_contractions(name: str) -> list[str]:
+    """The words of a phrase, with `is not` for `isn't`."""
+    return [
+        part
+        for word in name.replace("\u2019", "'").split()
+        for part in ((CONTRACTIONS[word.casefold()], "not") if word.casefold() in CONTRACTIONS else (word,))
+    ]
 
 
 def _comparison(
@@ -53,35 +78,38 @@ def _comparison(
             continue
         measure = _measure(ruleset, bound)
         if measure is not None:
-            return _with_measure(name, measure, bound.operator, bound.value)
+            is_whole = _says_all(bound, stems(measure).split())
+            return _with_measure(ruleset, name, measure, f"{measure} {bound.operator} {bound.value}", is_whole)
         if _NUMBER.fullmatch(bound.value):
             subject = _subject(bound)
             written = f"{subject or 'age'} {bound.operator} {bound.value}"
             declaration = f"MEASURE {subject or 'age'}: number"
-            advice = f"compare a measure: declare, for example, {quoted(declaration)}, and write {quoted(written)}"
+            is_whole = _says_all(bound, stems(subject).split())
+            text = quoted(written) if is_whole or not subject else "comparisons of it"
+            advice = f"compare a measure: declare, for example, {quoted(declaration)}, and write {text}"
             message = f"{quoted(name)} is read as one name, not as a comparison"
-            return Misreading(COMPARISON, name, message, advice, written if subject else None)
+            return Misreading(COMPARISON, name, message, advice, written if subject and is_whole else None)
     return _value_before_measure(ruleset, name)
 
 
-def _degree_of_measure(ruleset: Ruleset, name: str, words: list[str]) -> Misreading | None:
-    """`danger is high`, if `danger` is a declared measure that has no value `high`."""
-    if words[-1].casefold() not in DEGREES:
-        return None
-    at = next((at for at, word in enumerate(words) if word in _IS), 0)
-    named = (" ".join(words[first:at]) for first in (0, 1) if first < at and (not first or words[0] in ARTICLES))
-    measure = next((m for each in named if (m := ruleset.measures.get(each)) is not None and m.declared), None)
-    if measure is None:
-        return None
-    example = f"{measure.name} = {measure.values[-1]}" if measure.kind == "scale" else f"{measure.name} > 5"
-    message = f"{quoted(name)} is read as one name, not as a comparison of the measure {quoted(measure.name)}"
-    return Misreading(COMPARISON, name, message, f"compare the measure, for example: {quoted(example)}")
+def _says_all(bound: _Bound, measure: list[str]) -> bool:
+    """Whether a comparison says all that the words around it say, beside whose measure it is."""
+    around = [*bound.subject, *bound.rest]
+    words = stems(" ".join(word.removesuffix("'s") for word in around)).split()
+    said = {*_stems_beside_a_comparison(), *measure}
+    return bound.negations < 2 and all(word in said for word in words)
 
 
-def _with_measure(name: str, measure: str, operator: str, value: str) -> Misreading:
-    instead = f"{measure} {operator} {value}"
+@cache
+def _stems_beside_a_comparison() -> frozenset[str]:
+    return frozenset(stems(" ".join([*PEOPLE, *ROBOTS, *UNITS, *_VERBS, *_PRONOUNS, *_BESIDE])).split())
+
+
+def _with_measure(ruleset: Ruleset, name: str, measure: str, written: str, is_whole: bool) -> Misreading:
     message = f"{quoted(name)} is read as one name, not as a comparison of the measure {quoted(measure)}"
-    return Misreading(COMPARISON, name, message, f"write {quoted(instead)}", instead)
+    if is_whole:
+        return Misreading(COMPARISON, name, message, f"write {quoted(written)}", written)
+    return Misreading(COMPARISON, name, message, comparison_advice(ruleset.measures[measure]))
 
 
 def _bound(values: Collection[str], words: list[str], at: int, with_is: bool) -> _Bound | None:
@@ -104,10 +132,12 @@ def _bound(values: Collection[str], words: list[str], at: int, with_is: bool) ->
         return None
     before = before[: len(before) - length]
     has_is = not _IS.isdisjoint(before[-2:])
+    negations = 0
     while before and before[-1] in _VERBS | _NOT:
-        if before.pop() in _NOT:
-            operator = NEGATED_OPERATORS[operator]
-    return _Bound(words[: len(before)], operator, value, words[at + 1 :], has_is)
+        negations += before.pop() in _NOT
+    if negations % 2:
+        operator = NEGATED_OPERATORS[operator]
+    return _Bound(words[: len(before)], operator, value, words[at + 1 :], has_is, negations)
 
 
 def _measure(ruleset: Ruleset, bound: _Bound) -> str | None:
@@ -147,5 +177,5 @@ def _value_before_measure(ruleset: Ruleset, name: str) -> Misreading | None:
     words = [word for word in name.split() if word.casefold() not in ARTICLES | _VERBS]
     for measure in ruleset.measures.values():
         if words and words[0] in measure.values and stems(" ".join(words[1:])) == stems(measure.name):
-            return _with_measure(name, measure.name, "=", words[0])
+            return _with_measure(ruleset, name, measure.name, f"{measure.name} = {words[0]}", True)
     return None

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from sleec_runtime.model import DeclaredKind, Ruleset
 from sleec_verify.checks.names.comparisons import comparisons
+from sleec_verify.checks.names.measure_mentions import measure_mentions
 from sleec_verify.checks.names.misreading import FOREIGN_KEYWORD, KINDS, MODAL, NEGATION, Misreading
 from sleec_verify.checks.names.word_lists import (
     AUXILIARIES,
@@ -52,7 +53,10 @@ def misread_phrases(ruleset: Ruleset, phrases: Mapping[DeclaredKind, Iterable[st
         plain = name.replace("\u2019", "'")
         if name not in foreign and not _BEFORE_ACTIONS.isdisjoint(plain.casefold().split()):
             yield from _said(name, plain)
-    yield from (one for one in comparisons(ruleset, phrases["condition"]) if one.name not in foreign)
+    compared = {one.name: one for one in comparisons(ruleset, phrases["condition"]) if one.name not in foreign}
+    yield from compared.values()
+    rest = {kind: [name for name in phrases[kind] if name not in foreign and name not in compared] for kind in KINDS}
+    yield from measure_mentions(ruleset, rest["condition"], rest["obligation"])
     for name in phrases["trigger"]:
         if name not in foreign and name.casefold().startswith("not "):
             message = f"{quoted(name)} is read as one name, including the word `{name[:3]}`"

@@ -63,25 +63,6 @@ NUMBERS = {
 }
 """Numbers in words."""
 
-DEGREES = frozenset(
-    {
-        "high",
-        "low",
-        "big",
-        "large",
-        "small",
-        "great",
-        "strong",
-        "weak",
-        "long",
-        "short",
-        "severe",
-        "critical",
-        "extreme",
-    }
-)
-"""What people say of a measure without a number."""
-
 _PEOPLE = """
 child children user patient person resident guest man woman boy girl pupil student visitor customer baby he she client
 driver passenger
