@@ -9,11 +9,10 @@ from itertools import combinations
 from sleec_runtime.errors import SleecError
 from sleec_runtime.model import Ruleset
 from sleec_verify.checks import CHECKS, Progress
-from sleec_verify.encoding.budget import current
 from sleec_verify.encoding.trace_scope import Untimed
 from sleec_verify.repairs.edit import OverlappingEdits, in_order
 from sleec_verify.repairs.effect import effect_of
-from sleec_verify.repairs.numbering import NumberedRepair, numbered_repairs
+from sleec_verify.repairs.numbering import NumberedRepair, ends_by_time, numbered_repairs
 from sleec_verify.repairs.repair import Repair
 from sleec_verify.repairs.search import RepairSearch
 from sleec_verify.repairs.verification import Rejected, Verification
@@ -52,7 +51,7 @@ def chosen_repairs(
         repairs: list[NumberedRepair] = []
         for found in numbered_repairs(of_code, search, progress):
             repairs += found.repairs
-            if found.undecided is not None and _ends_by_time():
+            if found.undecided is not None and ends_by_time():
                 raise UnknownRepair(f"the repairs for {code} are not complete: {found.undecided}", "raise --timeout")
             if len(repairs) >= max(numbers):
                 break
@@ -64,12 +63,6 @@ def chosen_repairs(
                 )
             chosen.append(repairs[number - 1])
     return chosen
-
-
-def _ends_by_time() -> bool:
-    """Whether another run may find other repairs, and number them in another way."""
-    budget = current()
-    return budget is not None and budget.is_timed
 
 
 def _unknown_code(code: str, path: str) -> UnknownRepair:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from functools import lru_cache
 
 from sleec_runtime.model import Syntax
@@ -17,3 +18,8 @@ _COMMENT = {
 def blanked(text: str, syntax: Syntax) -> str:
     """The text with spaces in place of its comments, so that all offsets stay."""
     return _COMMENT[syntax].sub(lambda comment: re.sub(r"\S", " ", comment[0]), text)
+
+
+def loses_comment(old: str, new: str, syntax: Syntax) -> bool:
+    """Whether a text has a comment that the edited text does not have, wherever it is."""
+    return bool(Counter(_COMMENT[syntax].findall(old)) - Counter(_COMMENT[syntax].findall(new)))

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from sleec_verify.checks import Progress
+from sleec_verify.encoding.budget import current
 from sleec_verify.repairs.repair import Repair
 from sleec_verify.repairs.search import RepairSearch
 from sleec_verify.results.finding import Finding
@@ -39,4 +40,13 @@ def numbered_repairs(
         for repair in search.repairs(finding):
             counts[finding.code] += 1
             repairs.append(NumberedRepair(f"{finding.code}:{counts[finding.code]}", repair))
-        yield FindingRepairs(finding, tuple(repairs), search.undecided)
+        undecided = search.undecided
+        if undecided is not None and ends_by_time():
+            undecided += "; another run may number the repairs in another way"
+        yield FindingRepairs(finding, tuple(repairs), undecided)
+
+
+def ends_by_time() -> bool:
+    """Whether another run may find other repairs, and number them in another way."""
+    budget = current()
+    return budget is not None and budget.is_timed

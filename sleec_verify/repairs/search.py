@@ -9,6 +9,7 @@ from dataclasses import replace
 from sleec_runtime.errors import SleecError, Unsayable
 from sleec_runtime.model import Reading, Ruleset, Statement
 from sleec_verify.encoding.trace_scope import Untimed
+from sleec_verify.repairs.comments import loses_comment
 from sleec_verify.repairs.edit import edited, edits_between
 from sleec_verify.repairs.effect import effect_of
 from sleec_verify.repairs.operators import CONSEQUENCES, OPERATORS, Operation
@@ -21,6 +22,10 @@ from sleec_verify.results.phrases import listed
 
 _MOST_STEPS = 6
 """The changes in one repair, at most."""
+
+
+_REMOVE = ("rule-removal", "defeater-removal", "declaration-removal", "claim-removal", "renaming")
+"""The operators that may remove a statement or exception, together with its comments."""
 
 
 class RepairSearch:
@@ -67,7 +72,7 @@ class RepairSearch:
             with self._noting_failures():
                 for candidate in operator(ruleset, finding):
                     changed = edited(text, candidate.edits)
-                    if changed not in seen:
+                    if changed not in seen and _keeps_comments(ruleset, candidate):
                         seen.add(changed)
                         yield operator, candidate
 
@@ -153,9 +158,17 @@ def _again(rejected: Rejected, finding: Finding, operator: Operation, gives_way:
         return None
     with suppress(Unsayable):
         for one in operator(changed, appeared):
-            if one.gives_way == gives_way:
+            if one.gives_way == gives_way and _keeps_comments(changed, one):
                 return changed, one
     return None
+
+
+def _keeps_comments(ruleset: Ruleset, candidate: Candidate) -> bool:
+    """Whether no comment is lost, except those of a statement or exception that is removed."""
+    text = ruleset.source.text
+    removes = candidate.operator in _REMOVE
+    rest = edited(text, (edit for edit in candidate.edits if edit.text or not removes))
+    return not loses_comment(text, rest, ruleset.syntax)
 
 
 def _size(repair: Repair) -> tuple[bool, int, int, str]:

@@ -23,7 +23,6 @@ from sleec_runtime.model import (
     ScaleValue,
     Span,
 )
-from sleec_verify.encoding.equation import conjunction
 from sleec_verify.repairs.comments import blanked
 from sleec_verify.repairs.edit import TextEdit
 
@@ -89,15 +88,25 @@ def strengthened(ruleset: Ruleset, rule: Rule, condition: Formula) -> tuple[Text
     condition = as_read(ruleset, condition)
     if rule.guard is None:
         return (TextEdit(rule.trigger_span.end, rule.trigger_span.end, formulas.guard(condition)),)
-    start, end = _with_parentheses(ruleset, rule.trigger_span.end, rule.guard.span)
-    if ruleset.syntax == "dsl":
-        # The DSL has one formula after the event, so that it needs parentheses around both.
-        both = conjunction([as_read(ruleset, rule.guard), condition])
-        return (TextEdit(rule.trigger_span.end, end, formulas.guard(both)),)
-    added = TextEdit(end, end, formulas.guard(condition))
-    if isinstance(rule.guard, Or) and start == rule.guard.span.start:
-        return (TextEdit(start, start, "("), added._replace(text=f"){added.text}"))
-    return (added,)
+    return _conjoined(ruleset, rule.trigger_span.end, rule.guard, condition)
+
+
+def narrowed(ruleset: Ruleset, hedge: Clause, condition: Formula) -> tuple[TextEdit, ...]:
+    """The exception with one more condition: ``UNLESS a AND condition``."""
+    assert hedge.condition is not None, "a hedge has a condition"
+    return _conjoined(ruleset, hedge.span.start, hedge.condition, as_read(ruleset, condition))
+
+
+def _conjoined(ruleset: Ruleset, after: int, formula: Formula, condition: Formula) -> tuple[TextEdit, ...]:
+    """A formula that begins behind the offset `after`, and one more condition. The text of the formula stays as it is,
+    with its comments."""
+    formulas = _formulas(ruleset)
+    start, end = _with_parentheses(ruleset, after, formula.span)
+    own = int(isinstance(formula, Or) and start == formula.span.start)
+    around = int(ruleset.syntax == "dsl")  # which has one formula after an event
+    added = f"{formulas.connectives[And]}{formulas.operand(condition, And((formula, condition)))}"
+    opening = TextEdit(start, start, "(" * (around + own))
+    return (*([opening] if opening.text else []), TextEdit(end, end, f"{')' * own}{added}{')' * around}"))
 
 
 def _with_parentheses(ruleset: Ruleset, after: int, span: Span) -> Span:

@@ -15,8 +15,8 @@ from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import (
     exception_text,
     formula_text,
+    narrowed,
     strengthened,
-    with_condition,
     with_exception,
     without_obligations,
 )
@@ -124,7 +124,7 @@ def refinements(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
                 refined = conjunction([one.clause.condition, negation(condition)])
                 text = quoted(formula_text(ruleset, refined))
                 title = f"narrow the condition of {clause_name(one.rule, one.number)} to {text}"
-                edits = with_condition(ruleset, one.clause, refined)
+                edits = narrowed(ruleset, one.clause, negation(condition))
                 yield Candidate("defeater-refinement", title, edits, one.rule.label)
 
 

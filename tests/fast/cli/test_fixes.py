@@ -87,3 +87,5 @@ def test_repairs_that_cannot_be_verified_are_unknown(cli: Cli, monkeypatch: pyte
     assert "a.sleec:3:1: unknown[repairs] there may be more: the solver gave up\n" in shown["concise"]
     validator("check").validate(json.loads(shown["json"]))
     assert '"repairs_unknown": "the solver gave up"' in shown["json"]
+    timed = cli(*options, "full", "--timeout", "100", files={"a.sleec": CONFLICT}).out
+    assert "There may be more: the solver gave up; another run may number the repairs in another way\n" in timed

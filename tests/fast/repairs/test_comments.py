@@ -54,3 +54,44 @@ def test_an_operator_that_fails_hides_no_other_repair(monkeypatch: pytest.Monkey
     search = RepairSearch(ruleset, results)
     assert len(search.repairs(conflict)) == len(before)
     assert search.undecided == "internal error: ValueError: substring not found"
+
+
+def _dsl(*rules: str) -> str:
+    return IN_THE_DSL[: IN_THE_DSL.index("R1")] + "\n".join(rules) + "\nrule_end\n"
+
+
+STATUTE = "/* law 12, section 3 */"
+KEPT = [
+    (_dsl("R1 when A and {x} then B", f"R2 when A and {STATUTE} {{y}} then not B"), "SLEEC101", STATUTE),
+    (_dsl("R1 when A and {x} then B", f"R2 when A and ({{y}} {STATUTE} or {{z}}) then not B"), "SLEEC101", STATUTE),
+    ("WHEN a AND x // one\n OR y THEN b AND c\nWHEN a AND z THEN NOT b // two\n", "SLEEC101", "// one"),
+    ("WHEN a THEN b\nUNLESS x // one\n AND y IN WHICH CASE NOT b\nWHEN a AND z THEN b\n", "SLEEC101", "// one"),
+    ("WHEN a THEN b AND // one\n c AND d\nWHEN a AND x THEN NOT c\n", "SLEEC101", "// one"),
+]
+
+
+@pytest.mark.parametrize(("text", "code", "comment"), KEPT)
+def test_comments_inside_a_changed_rule_stay(text: str, code: str, comment: str) -> None:
+    removals = ("rule-removal", "defeater-removal")
+    repairs = [one for one in repairs_of(text, code) if one.candidate.operator not in removals]
+    changes = {one.candidate.operator for one in repairs}
+    assert "trigger-strengthening" in changes
+    assert all(comment in changed for changed in texts_after(text, repairs))
+
+
+def test_a_narrower_exception_keeps_its_comment() -> None:
+    text = KEPT[3][0]
+    (refined,) = (one for one in repairs_of(text, "SLEEC101") if one.candidate.operator == "defeater-refinement")
+    assert "\nUNLESS x // one\n AND y AND NOT z IN WHICH CASE NOT b\n" in texts_after(text, [refined])[0]
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("WHEN a THEN the robot // important note\n has to leave\n", "SLEEC521"),
+        ("WHEN a THEN take // of the child only\n photos\nWHEN b THEN take photo\n", "SLEEC525"),
+    ],
+)
+def test_a_name_with_a_comment_inside_is_not_replaced(text: str, code: str) -> None:
+    assert code in {one.code for one in findings(run_checks(parse(text)))}
+    assert all("// " in changed for changed in texts_after(text, repairs_of(text, code)))
