@@ -26,7 +26,7 @@ STARTS = frozenset({_SUBJECT[0], *(words[0] for words, _ in _FORMS)})
 _UNCLEAR = frozenset({"only", "not", "always"})
 """Words after a form that change its meaning: ``must not only``."""
 
-_OMISSIONS = frozenset({"fail", "forget", "neglect", "omit"})
+OMISSIONS = frozenset({"fail", "forget", "neglect", "omit"})
 """Verbs that deny the action after them: ``must not fail to leave`` requires ``leave``."""
 
 _NECESSITIES = (("have", "to"), ("need", "to"))
@@ -53,8 +53,8 @@ def modal_verb(words: list[str]) -> ModalVerb | None:
         end = first + len(form)
         if tuple(words[first:end]) == form:
             behind = words[end:]
-            if forbids and behind and behind[0] in _OMISSIONS:
-                denies = behind[1:2] == ["to"] and _is_clear(behind[2:]) and _OMISSIONS.isdisjoint(behind[2:3])
+            if forbids and behind and behind[0] in OMISSIONS:
+                denies = behind[1:2] == ["to"] and _is_clear(behind[2:]) and OMISSIONS.isdisjoint(behind[2:3])
                 return ModalVerb(end + 2, False) if denies else None
             is_permission = forbids and tuple(behind[:2]) in _NECESSITIES
             return ModalVerb(end, forbids) if _is_clear(behind) and not is_permission else None

@@ -15,11 +15,11 @@ from sleec_runtime.language.common.token_cursor import composed
 from sleec_runtime.language.english.comparison_words import comparison_words
 from sleec_runtime.language.english.keywords import PHRASE, STATEMENTS
 from sleec_runtime.language.english.name_resolution import EnglishNames
+from sleec_runtime.language.english.negations import CONTRACTIONS, negation
 from sleec_runtime.language.english.phrases import EnglishPhraseParser
 from sleec_runtime.model import And, Atom, Comparison, Formula, Not, Operator, Rational, Span, Truth
 
 _NEGATION = re.compile(r"not\b|n['\u2019]t\b", re.IGNORECASE)
-_CONTRACTIONS = {"isn't": "is", "aren't": "are", "hasn't": "has", "haven't": "have", "cannot": "can", "can't": "can"}
 
 
 class EnglishWordedConditionParser(EnglishPhraseParser, FormulaParser):
@@ -129,9 +129,8 @@ class EnglishWordedConditionParser(EnglishPhraseParser, FormulaParser):
 
 
 def _positive(small: list[str], words: list[str]) -> str | None:
-    """The phrase without its one `not`; None if it has none, or more."""
-    places = [at for at, word in enumerate(small) if word == "not" or word in _CONTRACTIONS]
-    if len(places) != 1 or small[places[0] + 1 : places[0] + 2] == ["only"]:
+    """The phrase without its negation; None if it has none that is certain."""
+    at = negation(small)
+    if at is None:
         return None
-    at = places[0]
-    return " ".join([*words[:at], *filter(None, [_CONTRACTIONS.get(small[at])]), *words[at + 1 :]])
+    return " ".join([*words[:at], *filter(None, [CONTRACTIONS.get(small[at])]), *words[at + 1 :]])

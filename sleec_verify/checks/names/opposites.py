@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 
+from sleec_runtime.language.english.negations import is_clear, negation
 from sleec_runtime.model import RELATIONS, Assume, Atom, Never, Ruleset, leaves
 from sleec_verify.checks.names.misreading import NEGATION, OPPOSITE, Misreading
 from sleec_verify.checks.names.word_forms import stems, words_of_each
@@ -24,11 +25,18 @@ def negated_conditions(names: Sequence[str]) -> Iterator[Misreading]:
         if other is not None and other != name:
             instead = f"NOT {other}"
             message = f"{quoted(name)} and {quoted(other)} are read as two independent conditions"
-            yield Misreading(NEGATION, name, message, f"write {quoted(instead)}", instead, other)
+            if negation(name.replace("\u2019", "'").casefold().split()) is not None:
+                yield Misreading(NEGATION, name, message, f"write {quoted(instead)}", instead, other)
+            else:
+                advice = f"if they are exact opposites, write {quoted(instead)}; otherwise, declare both"
+                yield Misreading(NEGATION, name, message, advice, other=other)
         elif words[0] == "not" and " " in name:
-            instead = f"NOT {name.split(maxsplit=1)[1]}"
             message = f"{quoted(name)} is read as one name, including the word `{name.split()[0]}`"
-            yield Misreading(NEGATION, name, message, f"write {quoted(instead)}", instead)
+            instead = f"NOT {name.split(maxsplit=1)[1]}"
+            if is_clear(words[1:]):
+                yield Misreading(NEGATION, name, message, f"write {quoted(instead)}", instead)
+            else:
+                yield Misreading(NEGATION, name, message, "write NOT before each condition that is negated")
 
 
 def opposites(ruleset: Ruleset, names: Sequence[str]) -> Iterator[Misreading]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 
+from sleec_runtime.language.english.modal_verbs import OMISSIONS
 from sleec_runtime.model import DeclaredKind, Ruleset
 from sleec_verify.checks.names.comparisons import comparisons
 from sleec_verify.checks.names.measure_mentions import measure_mentions
@@ -112,7 +113,7 @@ def _said(name: str, plain: str) -> Iterator[Misreading]:
     action = name[found.start("action") :]
     verbs = found["verbs"].casefold().split()
     negations = sum(verb in NEGATIONS for verb in verbs)
-    if negations == 1 and verbs[-1] != "no":
+    if negations == 1 and verbs[-1] != "no" and action.casefold().split()[0] not in OMISSIONS:
         instead = f"NOT {action}"
         yield _in_obligation(name, True, f"to forbid it, write {quoted(instead)}", instead)
         return

@@ -17,6 +17,7 @@ from tests.support.misread import (
     corrected,
     misread,
 )
+from tests.support.negated_conditions import UNCERTAIN
 
 BESIDE = "WHEN the user calls THEN take care\nUNLESS it is night IN WHICH CASE leave\n"
 """Rules with names that the examples negate."""
@@ -110,6 +111,8 @@ def test_words_in_a_condition(written: str, code: str, instead: str, frame: str)
         ("may open the window", MODAL),
         ("it is allowed to leave", MODAL),
         ("no entry for guests", NEGATION),
+        ("do not forget the keys", NEGATION),
+        ("must not fail to not leave", NEGATION),
     ],
 )
 def test_a_finding_without_a_replacement_says_what_to_do(written: str, code: str) -> None:
@@ -119,6 +122,16 @@ def test_a_finding_without_a_replacement_says_what_to_do(written: str, code: str
     (finding,) = misread(text)
     assert finding.code == code
     assert finding.help
+    assert corrected(text) == text
+
+
+@pytest.mark.parametrize(("positive", "negative"), UNCERTAIN)
+def test_a_negation_that_may_mean_something_else_has_no_replacement(positive: str, negative: str) -> None:
+    text = f"WHEN a THEN x\nUNLESS {positive}\nWHEN b THEN y\nUNLESS {negative}\n"
+    (finding,) = misread(text)
+    assert finding.code == NEGATION
+    assert finding.help is not None
+    assert f"`NOT {positive}`" in finding.help
     assert corrected(text) == text
 
 

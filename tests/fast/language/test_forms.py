@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from sleec_runtime.errors import LanguageError
 from sleec_runtime.language import parse, print_ruleset
 from sleec_runtime.model import And
+from tests.support.negated_conditions import CERTAIN, UNCERTAIN
 from tests.support.paths import ROOT
 
 DECLARATIONS = "MEASURE age: number\nMEASURE danger: low < high\nMEASURE body weight: integer\nCONSTANT LegalAge = 18\n"
@@ -159,6 +160,25 @@ def test_the_spans_are_those_of_the_words() -> None:
     ]
     (obligation,) = hedge.obligations
     assert text[obligation.span.start : obligation.span.end] == "the robot must not leave"
+
+
+# Negations ----------------------------------------------------------------------------------------------------
+
+
+def with_conditions(positive: str, other: str) -> str:
+    return f"WHEN a THEN x\nUNLESS {positive}\n\nWHEN b THEN y\nUNLESS {other}\n"
+
+
+@pytest.mark.parametrize(("positive", "negative"), CERTAIN)
+def test_a_negated_main_verb_denies_the_condition(positive: str, negative: str) -> None:
+    text = with_conditions(positive, negative)
+    assert print_ruleset(parse(text)) == with_conditions(positive, f"NOT {positive}")
+
+
+@pytest.mark.parametrize(("positive", "negative"), UNCERTAIN)
+def test_another_negation_stays_a_name(positive: str, negative: str) -> None:
+    text = with_conditions(positive, negative)
+    assert print_ruleset(parse(text)) == text
 
 
 # Random texts -------------------------------------------------------------------------------------------------
