@@ -11,43 +11,12 @@ from sleec_verify.checks.names.word_lists import COMPARATORS, CONTRACTIONS, MODA
 from sleec_verify.results.phrases import quoted
 
 _AMOUNTS = NUMBERS.keys() - {"one"}
-_SAY_SOMETHING = frozenset(
-    [
-        "is",
-        "are",
-        "was",
-        "were",
-        "be",
-        "been",
-        "has",
-        "have",
-        "had",
-        "becomes",
-        "became",
-        "gets",
-        "got",
-        "stays",
-        "remains",
-        "reaches",
-        "does",
-        "do",
-        "did",
-        "falls",
-        "drops",
-        "rises",
-        "exceeds",
-        "equals",
-        "of",
-        "about",
-        "around",
-        "between",
-        "not",
-        "never",
-        "no",
-    ]
-)
+_SAID = """
+is are was were be been has have had becomes became gets got stays remains reaches does do did falls drops rises exceeds
+equals of about around between not never no
+"""
+_VERBS = frozenset({*_SAID.split(), *MODALS, *CONTRACTIONS, *(words.split()[0] for words in COMPARATORS)})
 """What follows a measure in a sentence about its value."""
-_VERBS = _SAY_SOMETHING | MODALS | CONTRACTIONS.keys() | {words.split()[0] for words in COMPARATORS}
 
 
 def measure_mentions(ruleset: Ruleset, conditions: Iterable[str], obligations: Iterable[str]) -> Iterator[Misreading]:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 
 from sleec_runtime.language.english.modal_verbs import OMISSIONS
-from sleec_runtime.model import DeclaredKind, Ruleset
+from sleec_runtime.model import DeclaredKind, Ruleset, literals
 from sleec_verify.checks.names.comparisons import comparisons
 from sleec_verify.checks.names.measure_mentions import measure_mentions
 from sleec_verify.checks.names.misreading import FOREIGN_KEYWORD, KINDS, MODAL, NEGATION, Misreading
@@ -16,6 +16,7 @@ from sleec_verify.checks.names.word_lists import (
     FOREIGN,
     MODALS,
     NEGATIONS,
+    NOT_DUTIES,
     OUTSIDE_OBLIGATIONS,
     PERMISSIONS,
     ROBOTS,
@@ -28,6 +29,7 @@ _NOT = rf"(?:{'|'.join(sorted(NEGATIONS))})"
 _MODAL = rf"(?:{'|'.join(sorted(MODALS))})"
 _VERB_GROUP = (
     rf"(?:{_MODAL}|{_NOT}|(?:{'|'.join(sorted(AUXILIARIES))})(?= {_NOT} )|(?:has|have|needs?)(?= (?:{_NOT} )?to )"
+    rf"|needs?(?= {_NOT} )|had better"
     rf"|(?:is|are|be)(?= (?:{_NOT} )?(?:to|{_PERMITTED}) )|{_PERMITTED}(?= to )|also|to|longer)"
 )
 _SAID = re.compile(
@@ -38,11 +40,18 @@ _OTHER_SUBJECT = re.compile(
     rf"(?:(?:the|a|an|no|any|every|all) (?:[\w'-]+ ){{1,3}}?|[\w'-]+ )(?P<verbs>(?:must|shall|should)(?: {_NOT})?) .+",
     re.IGNORECASE,
 )
-_BEFORE_ACTIONS = NEGATIONS | MODALS | {"has", "have", "need", "needs", "is", "are", "be"}
+_FORBIDDING = re.compile(
+    rf"(?:(?:(?:the|a|an|this|your) )?(?:{'|'.join(ROBOTS)}) )?(?:{_MODAL} )?"
+    r"(?:(?:only|neither|nobody|no one|none|nothing|(?:refrain|abstain) from) .+|avoid \w+ing\b.*)",
+    re.IGNORECASE,
+)
+_BEFORE_ACTIONS = NEGATIONS | MODALS | {"has", "have", "need", "needs", "is", "are", "be", "better"}
 _FORBIDDEN = "name what the robot must not do, and write NOT before it, for example: NOT open the door"
 _REQUIRED = "name what the robot must do, for example: open the door"
 _IS = re.compile(r"\b(?:is|are)\b", re.IGNORECASE)
-_TO_DO = re.compile(r"\b(?:has|have|needs?|is|are|be) to\b", re.IGNORECASE)
+_IS_MODAL = re.compile(
+    rf"\b(?:{_MODAL}|had better|(?:has|have|needs?|is|are|be) (?:{_PERMITTED} )?to)\b", re.IGNORECASE
+)
 
 
 def misread_phrases(ruleset: Ruleset, phrases: Mapping[DeclaredKind, Iterable[str]]) -> Iterator[Misreading]:
@@ -50,10 +59,15 @@ def misread_phrases(ruleset: Ruleset, phrases: Mapping[DeclaredKind, Iterable[st
     foreign = {name: word for kind in KINDS for name in phrases[kind] if (word := _foreign_keyword(name)) is not None}
     for name, word in foreign.items():
         yield _foreign(ruleset, name, word)
+    forbidden = {o.name for rule in ruleset.rules for clause in rule.clauses() for o in literals(clause) if o.negated}
     for name in phrases["obligation"]:
         plain = name.replace("\u2019", "'")
-        if name not in foreign and not _BEFORE_ACTIONS.isdisjoint(plain.casefold().split()):
-            yield from _said(name, plain)
+        if name in foreign:
+            continue
+        if _FORBIDDING.fullmatch(plain):
+            yield _in_obligation(name, True, _FORBIDDEN)
+        elif not _BEFORE_ACTIONS.isdisjoint(plain.casefold().split()):
+            yield from _said(name, plain, name in forbidden)
     compared = {one.name: one for one in comparisons(ruleset, phrases["condition"]) if one.name not in foreign}
     yield from compared.values()
     rest = {kind: [name for name in phrases[kind] if name not in foreign and name not in compared] for kind in KINDS}
@@ -101,8 +115,9 @@ def _foreign(ruleset: Ruleset, name: str, foreign: str) -> Misreading:
     return Misreading(FOREIGN_KEYWORD, name, message, advice, instead or None)
 
 
-def _said(name: str, plain: str) -> Iterator[Misreading]:
-    """A negation or modal verb before the action of an obligation. `plain` is its name with straight apostrophes."""
+def _said(name: str, plain: str, is_forbidden: bool) -> Iterator[Misreading]:
+    """A negation or modal verb before the action of an obligation. `plain` is its name with straight apostrophes, and
+    `is_forbidden` says that the rules have it after NOT."""
     found = _SAID.fullmatch(plain)
     if found is None:
         other = _OTHER_SUBJECT.fullmatch(plain)
@@ -112,24 +127,33 @@ def _said(name: str, plain: str) -> Iterator[Misreading]:
         return
     action = name[found.start("action") :]
     verbs = found["verbs"].casefold().split()
+    modals = {CONTRACTIONS.get(verb, verb) for verb in verbs}
     negations = sum(verb in NEGATIONS for verb in verbs)
-    if negations == 1 and verbs[-1] != "no" and action.casefold().split()[0] not in OMISSIONS:
+    if negations == 1 and (verbs[-1] == "no" or action.casefold().split()[0] in OMISSIONS):
+        yield _in_obligation(name, True, _FORBIDDEN)
+    elif negations and (negations > 1 or is_forbidden or not NOT_DUTIES.isdisjoint(modals)):
+        message = f"{quoted(name)} is read as an obligation, including its negation"
+        yield Misreading(NEGATION, name, message, _either(action))
+    elif negations:
         instead = f"NOT {action}"
         yield _in_obligation(name, True, f"to forbid it, write {quoted(instead)}", instead)
-        return
-    if negations:
-        if negations == 1:
-            yield _in_obligation(name, True, _FORBIDDEN)
-        return
-    modals = {CONTRACTIONS.get(verb, verb) for verb in verbs}
     # "can" without a subject may be another word.
-    if not (found["subject"] or verbs[0] not in ("can", "to")):
-        return
-    if not PERMISSIONS.isdisjoint(modals):
-        advice = f"a rule cannot permit an action: if the robot must do it, write {quoted(action)}; otherwise remove it"
-        yield _in_obligation(name, False, advice)
-    elif _TO_DO.search(found["verbs"]) or not MODALS.isdisjoint(modals):
-        yield _in_obligation(name, False, f"write only the action: {quoted(action)}", action)
+    elif found["subject"] or verbs[0] not in ("can", "to"):
+        if is_forbidden and _IS_MODAL.search(found["verbs"]):
+            yield _in_obligation(name, False, _either(action))
+        elif not PERMISSIONS.isdisjoint(modals):
+            advice = f"a rule cannot permit an action: if the robot must do it, write {quoted(action)}; or remove it"
+            yield _in_obligation(name, False, advice)
+        elif _IS_MODAL.search(found["verbs"]):
+            yield _in_obligation(name, False, f"write only the action: {quoted(action)}", action)
+
+
+def _either(action: str) -> str:
+    """What to write for words that one reader takes for a prohibition, and another one for a permission."""
+    return (
+        f"write {quoted(action)} if the robot must do it, and {quoted(f'NOT {action}')} if it must not; "
+        "remove it if the robot may choose"
+    )
 
 
 def _in_obligation(name: str, negated: bool, help: str, instead: str | None = None) -> Misreading:

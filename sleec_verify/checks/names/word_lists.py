@@ -2,28 +2,26 @@
 
 from __future__ import annotations
 
-CONTRACTIONS = {
-    "cannot": "can",
+_NEGATED_VERBS = """
+do does did is are was were has have must should could would might may need
+"""
+_SPELLED_OUT = {f"{verb}n't": verb for verb in _NEGATED_VERBS.split()} | {
     "can't": "can",
-    "don't": "do",
-    "doesn't": "does",
-    "didn't": "did",
-    "isn't": "is",
-    "aren't": "are",
-    "wasn't": "was",
-    "weren't": "were",
-    "hasn't": "has",
-    "haven't": "have",
     "won't": "will",
-    "mustn't": "must",
-    "shouldn't": "should",
+    "shan't": "shall",
+    "shalln't": "shall",
 }
-"""Verbs that contain a negation, and the verb without it."""
+CONTRACTIONS = {"cannot": "can", **_SPELLED_OUT, **{word.replace("'", ""): _SPELLED_OUT[word] for word in _SPELLED_OUT}}
+"""Verbs that contain a negation, with and without an apostrophe, and the verb without it."""
 
 NEGATIONS = frozenset({"not", "never", "no", *CONTRACTIONS})
 MODALS = frozenset({"must", "shall", "should", "may", "might", "can", "could", "will", "would", "ought"})
 PERMISSIONS = frozenset({"may", "might", "can", "could", "allowed", "permitted", "able", "free"})
 """Words that say what the robot need not do."""
+NOT_DUTIES = frozenset(
+    {"could", "would", "might", "need", "needs", "has", "have", "required", "obliged", "able", "free"}
+)
+"""With a negation, these need not say that something is forbidden: `the robot need not leave`."""
 AUXILIARIES = frozenset({"do", "does", "did"})
 ROBOTS = ("robot", "system", "agent", "machine", "it", "he", "she", "they", "you", "we")
 """The subjects of a sentence about what the robot does."""
