@@ -76,11 +76,12 @@ def misreadings(ruleset: Ruleset, used: Mapping[DeclaredKind, Collection[str]]) 
         declared = declared.union(*ruleset.declared.values(), (n for n, m in ruleset.measures.items() if m.declared))
         phrases = {kind: sorted(n for n in used[kind] if " " in n and n not in declared) for kind in KINDS}
         if any(phrases.values()):
-            from sleec_verify.checks.names.opposites import negated_conditions, opposites
+            from sleec_verify.checks.names.opposites import negated_conditions, negated_triggers, opposites
             from sleec_verify.checks.names.phrases import misread_phrases
 
             found += misread_phrases(ruleset, phrases)
             found += negated_conditions(phrases["condition"])
+            found += negated_triggers(phrases["trigger"], phrases["condition"])
             found += opposites(ruleset, phrases["condition"])
     found += (one for one in variants(ruleset, used, declared) if one.name not in declared)
     return list({one.name: one for one in reversed(found)}.values())

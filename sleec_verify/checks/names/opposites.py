@@ -9,15 +9,23 @@ from sleec_runtime.language.english.negations import is_clear, negation
 from sleec_runtime.model import RELATIONS, Assume, Atom, Never, Ruleset, leaves
 from sleec_verify.checks.names.misreading import NEGATION, OPPOSITE, Misreading
 from sleec_verify.checks.names.word_forms import stems, words_of_each
-from sleec_verify.checks.names.word_lists import AUXILIARIES, CONTRACTIONS, NEGATING_PREFIXES, NEGATIONS, OPPOSITES
+from sleec_verify.checks.names.word_lists import (
+    AUXILIARIES,
+    COMPLEMENTS,
+    CONTRACTIONS,
+    NEGATING_PREFIXES,
+    NEGATIONS,
+    OPPOSITES,
+)
 from sleec_verify.encoding.relations import formulas_of_relation
 from sleec_verify.results.phrases import quoted
 
 
 def negated_conditions(names: Sequence[str]) -> Iterator[Misreading]:
-    """Conditions that differ from another one only by a negation, or that begin with one."""
+    """Conditions that differ from another one only by a negation, that begin with one, or that deny an opposite."""
     negated = [(name, words) for name, words in zip(names, words_of_each(names)) if not NEGATIONS.isdisjoint(words)]
     plain = {stems(name): name for name in reversed(names)} if negated else {}
+    known = dict(zip(words_of_each(names), names)) if negated else {}
     for name, words in negated:
         left = [CONTRACTIONS.get(word, word) for word in words if word in CONTRACTIONS or word not in NEGATIONS]
         finite = [word for word in left if word not in AUXILIARIES]
@@ -37,6 +45,24 @@ def negated_conditions(names: Sequence[str]) -> Iterator[Misreading]:
                 yield Misreading(NEGATION, name, message, f"write {quoted(instead)}", instead)
             else:
                 yield Misreading(NEGATION, name, message, "write NOT before each condition that is negated")
+        elif (same := _with_opposite(left, known)) is not None:
+            message = f"{quoted(name)} and {quoted(same)} are read as two independent conditions"
+            advice = f"if they mean the same, write {quoted(same)} in both places; otherwise, declare both"
+            yield Misreading(NEGATION, name, message, advice, other=same)
+
+
+def _with_opposite(words: Sequence[str], known: Mapping[tuple[str, ...], str]) -> str | None:
+    """The name of the words with an opposite in the place of one: `the light is off` for `the light is on`."""
+    changed = ((*words[:at], OPPOSITES[word], *words[at + 1 :]) for at, word in enumerate(words) if word in OPPOSITES)
+    return next((known[each] for each in changed if each in known), None)
+
+
+def negated_triggers(triggers: Sequence[str], conditions: Sequence[str]) -> Iterator[Misreading]:
+    """Triggers that deny a condition: `WHEN it is not night`, beside `it is night`."""
+    for one in negated_conditions([*conditions, *triggers]):
+        if one.name in triggers and one.name not in conditions and one.other in conditions:
+            advice = f"name an event, and write {quoted(f'AND NOT {one.other}')} after it"
+            yield one._replace(help=advice, instead=None)
 
 
 def opposites(ruleset: Ruleset, names: Sequence[str]) -> Iterator[Misreading]:
@@ -48,21 +74,28 @@ def opposites(ruleset: Ruleset, names: Sequence[str]) -> Iterator[Misreading]:
         for word in vocabulary
     }
     pairs = {
-        tuple(sorted((name, other)))
+        (min(name, other), max(name, other)): _are_complements(word, opposite)
         for words, name in known.items()
         for at, word in enumerate(words)
         for opposite in opposite_of[word]
         if (other := known.get((*words[:at], opposite, *words[at + 1 :]))) is not None
     }
     related = _related(ruleset) if pairs else {}
-    for one, other in sorted(pairs):
+    for (one, other), is_complement in sorted(pairs.items()):
         if related.get(one, frozenset()).isdisjoint(related.get(other, ())):
             message = f"{quoted(other)} and {quoted(one)} are read as two independent conditions"
-            advice = (
-                f"write {quoted(f'NOT {one}')} instead, "
-                f"or exclude both together: {quoted(f'ASSUME NOT ({one} AND {other})')}"
-            )
-            yield Misreading(OPPOSITE, other, message, advice, f"NOT {one}", one)
+            advice = f"exclude both together: {quoted(f'ASSUME NOT ({one} AND {other})')}"
+            instead = f"NOT {one}" if is_complement else None
+            if instead is not None:
+                advice = f"write {quoted(instead)} instead, or {advice}"
+            yield Misreading(OPPOSITE, other, message, advice, instead, one)
+
+
+def _are_complements(word: str, opposite: str) -> bool:
+    """Whether one of the two is always true: of `dressed` and `undressed`, but not of `happy` and `unhappy`."""
+    if opposite == OPPOSITES.get(word):
+        return opposite == COMPLEMENTS.get(word)
+    return word.endswith("ed")
 
 
 def _related(ruleset: Ruleset) -> Mapping[str, set[int]]:

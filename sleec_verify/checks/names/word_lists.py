@@ -26,13 +26,24 @@ AUXILIARIES = frozenset({"do", "does", "did"})
 ROBOTS = ("robot", "system", "agent", "machine", "it", "he", "she", "they", "you", "we")
 """The subjects of a sentence about what the robot does."""
 
-_PAIRS = """
-open closed, on off, awake asleep, full empty, present absent, day night, light dark, inside outside, indoors outdoors,
-alive dead, true false, allowed forbidden, enabled disabled, healthy ill, near far, wet dry, left right, begins ends,
-starts stops, alone accompanied, standing sitting, valid invalid, visible invisible, active inactive,
-complete incomplete, correct incorrect, possible impossible, legal illegal
+_COMPLEMENTS = """
+open closed, on off, awake asleep, present absent, inside outside, indoors outdoors, alive dead, true false,
+allowed forbidden, enabled disabled, alone accompanied, valid invalid, visible invisible, active inactive,
+complete incomplete, correct incorrect, possible impossible, legal illegal, somebody nobody, something nothing
 """
-OPPOSITES = {one: other for pair in _PAIRS.split(",") for one, other in (pair.split(), reversed(pair.split()))}
+_CONTRARIES = """
+full empty, day night, light dark, healthy ill, near far, wet dry, left right, begins ends, starts stops,
+standing sitting, everybody nobody, everything nothing
+"""
+
+
+def _pairs(text: str) -> dict[str, str]:
+    return {one: other for pair in text.split(",") for one, other in (pair.split(), reversed(pair.split()))}
+
+
+COMPLEMENTS = {**_pairs(_COMPLEMENTS), "someone": "nobody"}
+"""Words that exclude each other, where one of the two is always true."""
+OPPOSITES = {**_pairs(_CONTRARIES), **COMPLEMENTS}
 """Words that exclude each other."""
 NEGATING_PREFIXES = ("un", "dis", "non")
 """A word with one of these before it is the opposite of that word."""
