@@ -85,10 +85,13 @@ class EnglishWordedConditionParser(EnglishPhraseParser, FormulaParser):
         return None
 
     def _is_whole_assumption(self, first: int, end: int) -> bool:
-        """Whether the phrase from `first` to before `end` is all that an ASSUME says."""
-        if self.small_word(first - 1) == "the":
-            first -= 1
-        return self.kinds[first - 1] == "ASSUME" and (self.kinds[end] in STATEMENTS or self.kinds[end] in (".", "end"))
+        """Whether the phrase from `first` to before `end` is all that an ASSUME says, with or without parentheses."""
+        before = first - 1
+        while self.kinds[before] == "(" or self.small_word(before) == "the":
+            before -= 1
+        while self.kinds[end] == ")":
+            end += 1
+        return self.kinds[before] == "ASSUME" and (self.kinds[end] in STATEMENTS or self.kinds[end] in (".", "end"))
 
     def _end_of_measure(self, first: int, end: int) -> int | None:
         """The end of the longest name of a measure with which the phrase begins and does not end."""

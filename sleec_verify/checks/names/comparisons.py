@@ -34,14 +34,14 @@ _BESIDE = frozenset({"old", "of", "age", "here", "there", "away", "present", "le
 
 class _Bound(NamedTuple):
     """`subject operator value`. `rest` are the words after it, `has_is` says that `is` is after the subject, and
-    `negations` is the number of words such as `not` that the operator includes."""
+    `negations` are the words `not` and `never` that the operator includes."""
 
     subject: list[str]
     operator: str
     value: str
     rest: list[str]
     has_is: bool
-    negations: int
+    negations: tuple[str, ...]
 
 
 def comparisons(ruleset: Ruleset, names: Iterable[str], with_is: bool = True) -> Iterator[Misreading]:
@@ -93,11 +93,12 @@ def _comparison(
 
 
 def _says_all(bound: _Bound, measure: list[str]) -> bool:
-    """Whether a comparison says all that the words around it say, beside whose measure it is."""
+    """Whether a comparison says all that the words around it say, beside whose measure it is. `never` says something
+    about other instants, too."""
     around = [*bound.subject, *bound.rest]
     words = stems(" ".join(word.removesuffix("'s") for word in around)).split()
     said = {*_stems_beside_a_comparison(), *measure}
-    return bound.negations < 2 and all(word in said for word in words)
+    return bound.negations in ((), ("not",)) and all(word in said for word in words)
 
 
 @cache
@@ -132,10 +133,11 @@ def _bound(values: Collection[str], words: list[str], at: int, with_is: bool) ->
         return None
     before = before[: len(before) - length]
     has_is = not _IS.isdisjoint(before[-2:])
-    negations = 0
+    removed: list[str] = []
     while before and before[-1] in _VERBS | _NOT:
-        negations += before.pop() in _NOT
-    if negations % 2:
+        removed.append(before.pop())
+    negations = tuple(word for word in removed if word in _NOT)
+    if len(negations) % 2:
         operator = NEGATED_OPERATORS[operator]
     return _Bound(words[: len(before)], operator, value, words[at + 1 :], has_is, negations)
 

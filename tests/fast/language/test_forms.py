@@ -60,6 +60,7 @@ def test_the_form_means_its_canonical_form(written: str, canonical: str) -> None
         "ASSUME c OR age is never below 3",
         "ASSUME age is never below 3 AND c",
         "ASSUME NOT age is always below 3",
+        "ASSUME c OR NOT the age is never below 3",
         "UNLESS the child is under 6",
         "UNLESS age is under 6 years",
         "UNLESS age is high",
@@ -145,6 +146,15 @@ FORBIDDING = ["must not", "the robot must not", "do not", "don't", "never", "mus
 @pytest.mark.parametrize("omission", ["fail", "forget", "neglect", "omit"])
 def test_what_must_not_be_omitted_is_due(form: str, omission: str) -> None:
     assert parse(whole(f"THEN {form} {omission} to leave")) == parse(whole("THEN leave"))
+
+
+def test_parentheses_around_an_assumption_change_nothing() -> None:
+    for written in ("(age is never below 3)", "((the age is never below 3))"):
+        assert parse(whole(f"ASSUME {written}")) == parse(whole("ASSUME age >= 3"))
+    for unclear in ("NOT (age is never below 3)", "(age is never below 3) AND c"):
+        ruleset = parse(whole(f"ASSUME {unclear}"))
+        assert parse(print_ruleset(ruleset)) == ruleset
+        assert "age is never below 3" in print_ruleset(ruleset)
 
 
 def test_the_spans_are_those_of_the_words() -> None:
