@@ -15,6 +15,7 @@ from sleec_verify.repairs.operators.deadlines import deadlines
 from sleec_verify.repairs.operators.decomposition import decompositions
 from sleec_verify.repairs.operators.giving_way import exceptions, guards, refinements, responses
 from sleec_verify.repairs.operators.inputs import agents
+from sleec_verify.repairs.operators.nevers import nevers
 from sleec_verify.repairs.operators.purposes import relaxations
 from sleec_verify.repairs.operators.removal import declarations, hedges, redundant_rule, rules
 from sleec_verify.repairs.operators.reordering import orders
@@ -37,6 +38,7 @@ _WHO_GIVES_WAY: tuple[Operation, ...] = (
     deadlines,
     assumptions,
     hedges,
+    nevers,
     rules,
 )
 

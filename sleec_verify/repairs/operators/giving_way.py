@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from sleec_runtime.model import And, Clause, Formula, Not, Obligation, Rule, Ruleset, Truth
+from sleec_runtime.model import And, Atom, Clause, Formula, Never, Not, Obligation, Rule, Ruleset, Truth, leaves
 from sleec_verify.encoding.equation import conjunction, guard
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import (
@@ -27,7 +27,7 @@ from sleec_verify.results.phrases import clause_name, listed, quoted
 class Yielding(NamedTuple):
     """A clause that gives way, and the conditions under which it does, the most exact one first.
 
-    `others` are the clauses to which it gives way.
+    `others` are the clauses to which it gives way. There are none if only a NEVER excludes what it requires.
     """
 
     rule: Rule
@@ -43,21 +43,32 @@ class Yielding(NamedTuple):
 def yieldings(ruleset: Ruleset, finding: Finding) -> Iterator[Yielding]:
     """Each clause of a conflict as the one that gives way."""
     clauses = [(ruleset.by_label[label], number) for label, number in finding.clauses]
+    excluded = [part for never in nevers_of(ruleset, finding) for part in _situation(never)]
     for rule, number in clauses:
         others = tuple(other for other in clauses if other[0] is not rule)
-        if others:
-            yield Yielding(rule, number, tuple(_conditions(ruleset, rule, number, others)), others)
+        if others or excluded:
+            theirs = [part for other, at in others for part in _conjuncts(guard(other, ruleset.reading, at))]
+            yield Yielding(rule, number, tuple(_conditions(ruleset, rule, number, [*theirs, *excluded])), others)
 
 
-def _conditions(ruleset: Ruleset, rule: Rule, number: int, others: Iterable[tuple[Rule, int]]) -> Iterator[Formula]:
+def nevers_of(ruleset: Ruleset, finding: Finding) -> list[Never]:
+    """The NEVER statements of a conflict."""
+    spans = {span for span, _ in finding.related}
+    return [one for one in ruleset.constraints if isinstance(one, Never) and one.span in spans]
+
+
+def _situation(never: Never) -> list[Formula]:
+    """The conditions under which a NEVER excludes obligations: its conjuncts without these."""
+    return [part for part in _conjuncts(never.formula) if not any(map(_is_obligation, leaves(part)))]
+
+
+def _is_obligation(formula: Formula) -> bool:
+    return isinstance(formula, Atom) and formula.kind == "obligation"
+
+
+def _conditions(ruleset: Ruleset, rule: Rule, number: int, theirs: Iterable[Formula]) -> Iterator[Formula]:
     own = set(_conjuncts(guard(rule, ruleset.reading, number)))
-    needed = [
-        part
-        for other, clause in others
-        for part in _conjuncts(guard(other, ruleset.reading, clause))
-        if part not in own
-    ]
-    exact = list(dict.fromkeys(needed))
+    exact = list(dict.fromkeys(part for part in theirs if part not in own))
     positive = [part for part in exact if not isinstance(part, Not)]
     for parts in (exact, positive):
         if parts:
