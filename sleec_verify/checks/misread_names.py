@@ -11,8 +11,9 @@ from __future__ import annotations
 from bisect import bisect
 from collections import defaultdict
 from collections.abc import Collection, Iterator, Mapping
+from functools import lru_cache
 
-from sleec_runtime.model import DeclaredKind, Ruleset, Span
+from sleec_runtime.model import DeclaredKind, Ruleset, Source, Span
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.checks.names.misreading import KINDS, Misreading
 from sleec_verify.encoding.name_places import name_places
@@ -54,12 +55,20 @@ def replacements(ruleset: Ruleset, finding: Finding) -> tuple[tuple[Span, str], 
 
     Empty if only the author knows what to write.
     """
-    found = misreadings(ruleset, names_used(ruleset))
-    places = _places(ruleset, found)
-    for one in found:
-        if MISREAD_NAME.kinds[one.kind].code == finding.code and places[one.name][:1] == [finding.span]:
-            return () if one.instead is None else tuple((span, one.instead) for span in places[one.name])
-    return ()
+    return _replacements(ruleset, ruleset.source).get((finding.code, finding.span), ())
+
+
+@lru_cache(maxsize=1)  # whoever asks for one finding asks for the others of the ruleset
+def _replacements(ruleset: Ruleset, source: Source) -> Mapping[tuple[str, Span], tuple[tuple[Span, str], ...]]:
+    """The replacements for each code and first place. `source` is that of the ruleset: equal rules may have others."""
+    misread = misreadings(ruleset, names_used(ruleset))
+    places = _places(ruleset, misread)
+    found: dict[tuple[str, Span], tuple[tuple[Span, str], ...]] = {}
+    for one in misread:
+        for first in places[one.name][:1]:
+            changes = () if one.instead is None else tuple((span, one.instead) for span in places[one.name])
+            found.setdefault((MISREAD_NAME.kinds[one.kind].code, first), changes)
+    return found
 
 
 def _places(ruleset: Ruleset, found: list[Misreading]) -> Mapping[str, list[Span]]:

@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
-from tests.support.repairs import repairs_of, texts_after
+from sleec_runtime.language import parse
+from sleec_runtime.model import Ruleset
+from sleec_verify.checks import run_checks
+from sleec_verify.checks.misread_names import misreadings
+from sleec_verify.repairs.search import RepairSearch
+from tests.support.repairs import findings, repairs_of, texts_after
 
 CHANGES = {
     "SLEEC520": ("the robot is not allowed to leave", "NOT leave"),
@@ -57,3 +64,27 @@ def test_a_name_that_hides_a_conflict_stays_for_the_author() -> None:
     text = "WHEN the user falls THEN call the nurse\nWHEN the user sleeps THEN NOT call nurse\n"
     assert not repairs_of(text, "SLEEC525")
     assert not repairs_of("WHEN the bell rings THEN greet UNLESS is less than 10 IN WHICH CASE wave\n", "SLEEC522")
+
+
+def test_replacements_of_equal_rules_have_the_places_of_their_text() -> None:
+    text = "WHEN the user sleeps THEN the robot has to wait\n"
+    for written in (text, f"\n\n{text}", f"// sleep\n{text}"):
+        (repair,) = repairs_of(written, "SLEEC521")
+        assert texts_after(written, [repair]) == [written.replace("the robot has to wait", "wait")]
+
+
+def test_misread_names_are_found_once_for_all_findings(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[Ruleset] = []
+
+    def noting(ruleset: Ruleset, *used: Any) -> Any:
+        asked.append(ruleset)
+        return misreadings(ruleset, *used)
+
+    ruleset = parse("".join(f"WHEN the bell rings THEN the robot has to do task{n}x\n" for n in range(5)))
+    results = run_checks(ruleset)
+    found = [finding for finding in findings(results) if finding.code == "SLEEC521"]
+    assert len(found) == 5
+    monkeypatch.setattr("sleec_verify.checks.misread_names.misreadings", noting)
+    search = RepairSearch(ruleset, results)
+    assert all(search.candidates(finding) for finding in found)
+    assert len(asked) == 1
