@@ -144,12 +144,12 @@ def _bound(values: Collection[str], words: list[str], at: int, with_is: bool) ->
 
 def _measure(ruleset: Ruleset, bound: _Bound) -> str | None:
     """The measure that a bound is about: its name begins or ends the subject, or is the rest."""
-    subject, rest = stems(" ".join(bound.subject)), " ".join(bound.rest)
+    subject, rest = stems(" ".join(bound.subject)), stems(" ".join(bound.rest))
     for name, measure in ruleset.measures.items():
         if not _fits(ruleset, measure, bound.value):
             continue
         said = stems(name)
-        if f"{subject} ".startswith(f"{said} ") or f" {subject}".endswith(f" {said}") or stems(rest) == said:
+        if f"{subject} ".startswith(f"{said} ") or f" {subject}".endswith(f" {said}") or rest == said:
             return name
     if _subject(bound) != "age":
         return None

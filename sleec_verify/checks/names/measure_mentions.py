@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from sleec_runtime.model import Measure, Ruleset
 from sleec_verify.checks.names.misreading import COMPARISON, Misreading
@@ -22,28 +22,39 @@ _VERBS = frozenset({*_SAID.split(), *MODALS, *CONTRACTIONS, *(words.split()[0] f
 def measure_mentions(ruleset: Ruleset, conditions: Iterable[str], obligations: Iterable[str]) -> Iterator[Misreading]:
     """The conditions that name a measure and a number, one of its values, or a verb; and the obligations that begin
     with a measure and one of these."""
-    measures = [measure for measure in ruleset.measures.values() if measure.declared]
-    said = [[singular(word) for word in words] for words in words_of_each(measure.name for measure in measures)]
-    for names, is_condition in ((conditions, True), (obligations, False)) if measures else ():
+    declared = [measure for measure in ruleset.measures.values() if measure.declared]
+    measure_of = dict(zip(map(_singulars, words_of_each(measure.name for measure in declared)), declared))
+    for names, is_condition in ((conditions, True), (obligations, False)) if measure_of else ():
         names = list(names)
         for name, all_words in zip(names, words_of_each(names)):
             words = [word for word in all_words if word not in ARTICLES]
-            for measure, measured in zip(measures, said):
-                if _is_about(words, measured, {value.casefold() for value in measure.values}, is_condition):
-                    yield _misreading(name, measure, is_condition)
-                    break
+            measure = _measure_it_is_about(words, measure_of, anywhere=is_condition)
+            if measure is not None:
+                yield _misreading(name, measure, is_condition)
 
 
-def _is_about(words: Sequence[str], measured: Sequence[str], values: Collection[str], anywhere: bool) -> bool:
-    starts = range(len(words) - len(measured) + 1 if anywhere else 1)
-    length = len(measured)
-    plain = [singular(word) for word in words]
-    at = next((at for at in starts if plain[at : at + length] == measured), None) if measured else None
-    if at is None:
-        return False
-    others = [*words[:at], *words[at + length :]]
-    return any(word.isdecimal() or word in _AMOUNTS or word in values for word in others) or (
-        at == 0 and bool(others) and others[0] in _VERBS
+def _singulars(words: Iterable[str]) -> tuple[str, ...]:
+    return tuple(map(singular, words))
+
+
+def _measure_it_is_about(
+    words: Sequence[str], measure_of: Mapping[tuple[str, ...], Measure], anywhere: bool
+) -> Measure | None:
+    plain = _singulars(words)
+    longest = max(map(len, measure_of))
+    for at in range(len(words) if anywhere else 1):
+        for end in range(at + 1, min(at + longest, len(words)) + 1):
+            measure = measure_of.get(plain[at:end])
+            if measure is not None and _says_something(words[:at], words[end:], measure):
+                return measure
+    return None
+
+
+def _says_something(before: Sequence[str], after: Sequence[str], measure: Measure) -> bool:
+    """Whether the words around a measure are a number, one of its values, or a verb."""
+    said = _AMOUNTS | {value.casefold() for value in measure.values}
+    return any(word.isdecimal() or word in said for word in (*before, *after)) or (
+        not before and bool(after) and after[0] in _VERBS
     )
 
 

@@ -59,8 +59,9 @@ def _with_opposite(words: Sequence[str], known: Mapping[tuple[str, ...], str]) -
 
 def negated_triggers(triggers: Sequence[str], conditions: Sequence[str]) -> Iterator[Misreading]:
     """Triggers that deny a condition: `WHEN it is not night`, beside `it is night`."""
-    for one in negated_conditions([*conditions, *triggers]):
-        if one.name in triggers and one.name not in conditions and one.other in conditions:
+    known = frozenset(conditions)
+    for one in negated_conditions([*conditions, *(name for name in triggers if name not in known)]):
+        if one.name not in known and one.other in known:
             advice = f"name an event, and write {quoted(f'AND NOT {one.other}')} after it"
             yield one._replace(help=advice, instead=None)
 

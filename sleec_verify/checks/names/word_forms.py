@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
+from functools import lru_cache
 
 ARTICLES = frozenset({"the", "a", "an"})
 _IS_OR_ARE = {"are": "is", "were": "was", "has": "have"}
@@ -31,6 +32,7 @@ def words_of_each(names: Iterable[str]) -> list[tuple[str, ...]]:
     return [tuple(part.split()) for part in " ".join(_words(names)).split("\n")][1:-1]
 
 
+@lru_cache(maxsize=4096)
 def stems(name: str) -> str:
     """What names have in common that differ only by articles, case, number or the form of a verb."""
     return stems_of_each([name])[0][0]

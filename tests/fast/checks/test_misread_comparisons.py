@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from time import process_time
+
 import pytest
 
 from sleec_runtime.language import parse
+from sleec_verify.checks.misread_names import misreadings
+from sleec_verify.encoding.name_uses import names_used
 from tests.support.misread import COMPARISON, codes, corrected, misread
 
 MEASURES = "MEASURE age: number\nMEASURE count: number\nMEASURE danger: low < mid < high\n"
@@ -83,3 +87,15 @@ def test_an_obligation_is_not_a_comparison(written: str) -> None:
 def test_a_word_of_a_measure_in_another_name(written: str) -> None:
     assert not codes(MEASURES + RULE.format(written))
     assert not codes(f"{MEASURES}WHEN the bell rings THEN report danger AND keep the count below 50 AND ask the age\n")
+
+
+def test_many_measures_take_linear_time() -> None:
+    """Pairs of a measure and a condition would be a million."""
+    names = [f"{chr(97 + at // 676)}{chr(97 + at // 26 % 26)}{chr(97 + at % 26)}q" for at in range(1000)]
+    measures = "".join(f"MEASURE {name}: number\n" for name in names)
+    rules = "".join(f"WHEN {name} rings THEN go UNLESS {name} < 3 AND the box {name} is open\n" for name in names)
+    ruleset = parse(measures + rules)
+    used = names_used(ruleset)
+    started = process_time()
+    assert not misreadings(ruleset, used)
+    assert process_time() - started < 2
