@@ -26,8 +26,11 @@ STARTS = frozenset({_SUBJECT[0], *(words[0] for words, _ in _FORMS)})
 _UNCLEAR = frozenset({"only", "not", "always"})
 """Words after a form that change its meaning: ``must not only``."""
 
-OMISSIONS = frozenset({"fail", "forget", "neglect", "omit"})
+_OMISSIONS = frozenset({"fail", "forget", "neglect", "omit"})
 """Verbs that deny the action after them: ``must not fail to leave`` requires ``leave``."""
+
+_REFUSALS = frozenset({"refuse to", "decline to", "hesitate to", "refrain from", "abstain from"})
+"""Words that a negation makes unclear: ``must not refuse to help`` may forbid an answer, or require help."""
 
 _NECESSITIES = (("have", "to"), ("need", "to"))
 """Words that a negation makes a permission: ``should not have to leave``."""
@@ -53,12 +56,26 @@ def modal_verb(words: list[str]) -> ModalVerb | None:
         end = first + len(form)
         if tuple(words[first:end]) == form:
             behind = words[end:]
-            if forbids and behind and behind[0] in OMISSIONS:
-                denies = behind[1:2] == ["to"] and _is_clear(behind[2:]) and OMISSIONS.isdisjoint(behind[2:3])
-                return ModalVerb(end + 2, False) if denies else None
+            if forbids and denies_action(behind):
+                is_due = omits_action(behind) and _is_clear(behind[2:]) and not denies_action(behind[2:])
+                return ModalVerb(end + 2, False) if is_due else None
             is_permission = forbids and tuple(behind[:2]) in _NECESSITIES
             return ModalVerb(end, forbids) if _is_clear(behind) and not is_permission else None
     return None
+
+
+def omits_action(words: list[str]) -> bool:
+    """Whether these `small_word`s are an omission of the action after them, such as ``fail to leave``."""
+    return words[0] in _OMISSIONS and words[1:2] == ["to"]
+
+
+def denies_action(words: list[str]) -> bool:
+    """Whether a negation before these `small_word`s may do more than forbid what they say."""
+    return bool(words) and (
+        words[0] in _OMISSIONS
+        or " ".join(words[:2]) in _REFUSALS
+        or (words[0] == "avoid" and "".join(words[1:2]).endswith("ing"))
+    )
 
 
 def _is_clear(words: list[str]) -> bool:

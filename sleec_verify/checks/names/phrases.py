@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 
-from sleec_runtime.language.english.modal_verbs import OMISSIONS
+from sleec_runtime.language.english.modal_verbs import denies_action, omits_action
 from sleec_runtime.model import DeclaredKind, Ruleset, literals
 from sleec_verify.checks.names.comparisons import comparisons
 from sleec_verify.checks.names.measure_mentions import measure_mentions
@@ -66,6 +66,8 @@ def misread_phrases(ruleset: Ruleset, phrases: Mapping[DeclaredKind, Iterable[st
             continue
         if _FORBIDDING.fullmatch(plain):
             yield _in_obligation(name, True, _FORBIDDEN)
+        elif omits_action(plain.casefold().split()):
+            yield _with_denial(name)
         elif not _BEFORE_ACTIONS.isdisjoint(plain.casefold().split()):
             yield from _said(name, plain, name in forbidden)
     compared = {one.name: one for one in comparisons(ruleset, phrases["condition"]) if one.name not in foreign}
@@ -99,8 +101,6 @@ def _foreign(ruleset: Ruleset, name: str, foreign: str) -> Misreading:
     if name in ruleset.obligations:
         if foreign in SUPERFLUOUS:
             instead = " ".join(word for word in words if word not in SUPERFLUOUS)
-        elif foreign == "NEVER" and not before:
-            instead = f"NOT {after}"
     elif name in ruleset.conditions and before and after:
         instead = {
             "IMPLIES": f"(NOT {before} OR {after})",
@@ -129,8 +129,10 @@ def _said(name: str, plain: str, is_forbidden: bool) -> Iterator[Misreading]:
     verbs = found["verbs"].casefold().split()
     modals = {CONTRACTIONS.get(verb, verb) for verb in verbs}
     negations = sum(verb in NEGATIONS for verb in verbs)
-    if negations == 1 and (verbs[-1] == "no" or action.casefold().split()[0] in OMISSIONS):
+    if negations == 1 and verbs[-1] == "no":
         yield _in_obligation(name, True, _FORBIDDEN)
+    elif negations and denies_action(action.casefold().split()):
+        yield _with_denial(name)
     elif negations and (negations > 1 or is_forbidden or not NOT_DUTIES.isdisjoint(modals)):
         message = f"{quoted(name)} is read as an obligation, including its negation"
         yield Misreading(NEGATION, name, message, _either(action))
@@ -146,6 +148,12 @@ def _said(name: str, plain: str, is_forbidden: bool) -> Iterator[Misreading]:
             yield _in_obligation(name, False, advice)
         elif _IS_MODAL.search(found["verbs"]):
             yield _in_obligation(name, False, f"write only the action: {quoted(action)}", action)
+
+
+def _with_denial(name: str) -> Misreading:
+    message = f"{quoted(name)} is read as one name, including its negation"
+    advice = "name the action itself, for example: open the door; to forbid it, write NOT before it"
+    return Misreading(NEGATION, name, message, advice)
 
 
 def _either(action: str) -> str:

@@ -109,7 +109,6 @@ FOREIGN = {
     **dict.fromkeys(("ELSEIF", "ELIF", "ELSIF", "ENDIF", "END"), "write one UNLESS for each exception"),
     **dict.fromkeys(("ONCE", "UPON", "GIVEN"), "write WHEN before the trigger, and AND before a condition"),
     **dict.fromkeys(("PROVIDED", "ASSUMING"), "write AND and the condition before THEN, or UNLESS NOT after it"),
-    "NEVER": "write NOT before the obligation",
     "EQUALS": "write = to compare a measure",
     **dict.fromkeys(
         ("WITNESSES", "EXCLUDES", "PRECEDES", "CAUSES", "INCLUDES", "FORBIDS", "OPPOSES"),
@@ -124,7 +123,6 @@ OUTSIDE_OBLIGATIONS = {
         "leave the time out, or declare a measure for it and compare it, for example: minutes_asleep > 5",
     ),
     **dict.fromkeys(("MUST", "SHALL", "SHOULD", "WILL", "MAY", "NOW", "IMMEDIATELY", "ASAP"), "leave it out"),
-    "NEVER": "write NOT before the condition",
 }
 """What to write instead in a trigger or condition, where it is something else."""
 

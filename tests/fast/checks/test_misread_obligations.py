@@ -24,7 +24,14 @@ neither shout nor run, the robot must neither shout nor run, nobody may leave, n
 avoid leaving, avoid leaving the room, refrain from leaving, the robot should abstain from leaving,
 must only leave with the nurse, only leave with the nurse
 """
-FINE = "avoid obstacles, avoid the bedroom, clean the only window, find a better seat, say that nobody may enter"
+DENIED = """
+do not forget the keys, must not fail to not leave, must not refuse to help, do not hesitate to call the nurse,
+must not avoid leaving, NOT fail to leave, forget to leave, the robot cannot decline to help, must not fail
+"""
+FINE = """
+avoid obstacles, avoid the bedroom, clean the only window, find a better seat, say that nobody may enter,
+forget the request, refuse to help, fail safely, must not stop the music
+"""
 
 
 def phrases(text: str) -> list[str]:
@@ -49,6 +56,15 @@ def test_a_negation_that_may_only_permit(written: str) -> None:
     assert finding.help == (
         "write `leave` if the robot must do it, and `NOT leave` if it must not; remove it if the robot may choose"
     )
+    assert corrected(text) == text
+
+
+@pytest.mark.parametrize("written", phrases(DENIED))
+def test_what_is_not_to_be_omitted(written: str) -> None:
+    text = RULE.format(written)
+    (finding,) = misread(text)
+    assert finding.code == NEGATION
+    assert finding.help == "name the action itself, for example: open the door; to forbid it, write NOT before it"
     assert corrected(text) == text
 
 
