@@ -19,7 +19,8 @@ _CODES = frozenset((*REMOVALS, "SLEEC507", "SLEEC508", "SLEEC513"))
 """The findings that are repaired without a question, if the repair keeps the meaning."""
 
 _ONE_NAME = "SLEEC525"
-"""A variant of another name is a slip, because an author who means two names declares both."""
+"""A variant by an article, case or number is a slip, because an author who means two names declares both. In the DSL,
+both have a definition, so there the author decides."""
 
 
 def simplifications(
@@ -77,5 +78,5 @@ def _declared(ruleset: Ruleset) -> frozenset[str]:
 
 def _needs_no_decision(repair: Repair, needed: frozenset[str]) -> bool:
     if repair.finding.code == _ONE_NAME:
-        return True
+        return repair.repaired.syntax != "dsl"
     return repair.effect.keeps_meaning and needed <= _declared(repair.repaired)

@@ -47,3 +47,39 @@ def test_a_slip_is_renamed_only_on_request(wrong: str) -> None:
     assert texts_after(text, repairs_of(text, "SLEEC526")) == [f"{right}WHEN t THEN call the nurse\n"]
     ruleset = parse(text)
     assert all(one.finding.code != "SLEEC526" for one in simplifications(ruleset, run_checks(ruleset)))
+
+
+OTHER_WORDS = [
+    ("is charged", "is charging"),
+    ("is closing", "is closed"),
+    ("massage", "message"),
+    ("battery is charged", "battery is changed"),
+    ("user is lifted", "user is lifting"),
+    ("is moving", "is moved"),
+    ("patient walks", "patient walked"),
+    ("heart rate", "heat rate"),
+    ("insulin", "inulin"),
+    ("dressed", "dressing"),
+    ("the left hand is up", "the left hands are up"),
+]
+
+
+@pytest.mark.parametrize("pair", OTHER_WORDS)
+def test_different_words_are_never_merged_without_a_question(pair: tuple[str, str]) -> None:
+    one, other = pair
+    text = "".join(
+        f"WHEN {name} THEN go{at}\nWHEN t{at} THEN {name}\nWHEN s{at} THEN stay{at} UNLESS {name}\n"
+        for at, name in enumerate((one, other, other))
+    )
+    ruleset = parse(text)
+    assert all(one.candidate.operator != "renaming" for one in simplifications(ruleset, run_checks(ruleset)))
+
+
+def test_two_definitions_of_the_dsl_are_merged_only_on_request() -> None:
+    text = (
+        "def_start\nevent Bell\nevent Hand\nevent Hands\ndef_end\n"
+        "rule_start\nR1 when Bell then Hand\nR2 when Hand then Hands\nrule_end\n"
+    )
+    ruleset = parse(text)
+    assert repairs_of(text, "SLEEC525")
+    assert not list(simplifications(ruleset, run_checks(ruleset)))
