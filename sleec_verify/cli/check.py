@@ -101,7 +101,12 @@ def command(
     if only_show and not fix:
         raise click.UsageError("--diff needs --fix")
     if fix:
-        for given, option in ((watched, "--watch"), (certificate, "--certify"), (only_show and output, "--diff -o")):
+        for given, option in (
+            (watched, "--watch"),
+            (certificate, "--certify"),
+            (only_show and output, "--diff -o"),
+            (only_show and form != "full", "--diff --format"),
+        ):
             if given:
                 raise click.UsageError(f"--fix cannot be combined with {option}")
 

@@ -20,6 +20,12 @@ def blanked(text: str, syntax: Syntax) -> str:
     return _COMMENT[syntax].sub(lambda comment: re.sub(r"\S", " ", comment[0]), text)
 
 
+def comment_around(text: str, offset: int, syntax: Syntax) -> int | None:
+    """Where the comment begins that has text before and after an offset; None if there is no such comment."""
+    found = (comment for comment in _COMMENT[syntax].finditer(text) if comment.start() < offset < comment.end())
+    return next((comment.start() for comment in found), None)
+
+
 def loses_comment(old: str, new: str, syntax: Syntax) -> bool:
     """Whether a text has a comment that the edited text does not have, wherever it is."""
     return bool(Counter(_COMMENT[syntax].findall(old)) - Counter(_COMMENT[syntax].findall(new)))

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from sleec_verify.repairs.clause_names import always_statement
+from sleec_verify.repairs.comments import comment_around
 from sleec_verify.repairs.edit import OffsetMap, TextEdit, in_order
 from sleec_verify.repairs.statement_edits import indent_at, line_break_of, printer_of
 from sleec_verify.results.phrases import listed, quoted
@@ -12,7 +14,7 @@ if TYPE_CHECKING:
     from datetime import date
 
     from sleec_runtime.model import Ruleset
-    from sleec_verify.repairs.repair import Repair
+    from sleec_verify.repairs.repair import Candidate, Repair
 
 
 def decision(ruleset: Ruleset, repair: Repair, day: date, reason: str) -> str:
@@ -29,8 +31,10 @@ def decision(ruleset: Ruleset, repair: Repair, day: date, reason: str) -> str:
 
 
 def _name(ruleset: Ruleset, label: str) -> str:
-    """The label of a rule. A rule without a label has a number, which changes, so its trigger and guard name it."""
+    """The label of a rule. A rule without a label has a number, which changes, so its text names it."""
     rule = ruleset.by_label[label]
+    if rule.always is not None:
+        return always_statement(ruleset, rule)
     if rule.labelled:
         return quoted(label)
     guard = "" if rule.guard is None else printer_of(ruleset).formulas.guard(rule.guard)
@@ -48,11 +52,26 @@ def comment_edit(ruleset: Ruleset, repair: Repair, comment: str) -> TextEdit:
     if repair.candidate.gives_way is not None:
         at = OffsetMap(edits).after(ruleset.by_label[repair.candidate.gives_way].span.start)
     if at is None:
-        after = text[edits[0].start :]
-        changed = edits[0].start + len(after) - len(after.lstrip())
+        start = _changed_at(ruleset, repair.candidate, edits)
+        after = text[start:]
+        changed = start + len(after) - len(after.lstrip())
         spans = (statement.span for statement in repair.repaired.statements)
         at = next((span.start for span in spans if span.start <= changed < span.end), changed)
     start = text.rfind("\n", 0, at) + 1
+    comment_start = comment_around(text, start, ruleset.syntax)
+    if comment_start is not None:  # the line begins inside a comment
+        start = at = text.rfind("\n", 0, comment_start) + 1
     if at == len(text) and start < at:  # the last rule was removed with its line break
         return TextEdit(at, at, f"{line_break_of(text)}// {comment}")
     return TextEdit(start, start, f"{indent_at(text, at)}// {comment}{line_break_of(text)}")
+
+
+def _changed_at(ruleset: Ruleset, candidate: Candidate, edits: list[TextEdit]) -> int:
+    """Where the edit that removes the rule that gives way is in the edited text; otherwise, where the first one is."""
+    place = edits[0].start if candidate.gives_way is None else ruleset.by_label[candidate.gives_way].span.start
+    shift = 0
+    for start, end, new in edits:
+        if start <= place < end:
+            return start + shift
+        shift += len(new) - (end - start)
+    return edits[0].start

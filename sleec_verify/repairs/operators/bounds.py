@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from sleec_runtime.model import Comparison, MeasureRef, Operator, Rule, Ruleset, formulas_of, leaves
 from sleec_verify.encoding.equation import guard
+from sleec_verify.repairs.clause_names import rule_name
 from sleec_verify.repairs.operators.claim_cases import parts_of
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import as_read, printer_of, replaced
@@ -42,7 +43,7 @@ def bounds(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
             if changed.rule is not kept.rule and changed.is_opposite(kept):
                 negated = replace(kept.comparison, operator=_NEGATION[kept.comparison.operator])
                 text, old = _text(ruleset, negated), _text(ruleset, changed.comparison)
-                title = f"replace {quoted(old)} with {quoted(text)} in rule {quoted(changed.rule.label)}"
+                title = f"replace {quoted(old)} with {quoted(text)} in {rule_name(ruleset, changed.rule)}"
                 edits = replaced(changed.comparison.span, text)
                 yield Candidate("correction", title, edits, changed.rule.label)
 
@@ -66,7 +67,7 @@ def operators(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
                 same_side = _SAME_SIDE[leaf.operator]
                 for operator in (same_side, _NEGATION[same_side]):
                     text, old = _text(ruleset, replace(leaf, operator=operator)), _text(ruleset, leaf)
-                    title = f"replace {quoted(old)} with {quoted(text)} in rule {quoted(label)}"
+                    title = f"replace {quoted(old)} with {quoted(text)} in {rule_name(ruleset, rule)}"
                     yield Candidate("correction", title, replaced(leaf.span, text))
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from sleec_runtime.model import NO_COMMENTS, READINGS, Clause, Formula, Or, Ruleset
 from sleec_verify.encoding.equation import conjunction, disjunction
+from sleec_verify.repairs.clause_names import rule_name
 from sleec_verify.repairs.edit import TextEdit, joined
 from sleec_verify.repairs.operators.claim_cases import parts_of
 from sleec_verify.repairs.operators.giving_way import negation
@@ -45,7 +46,7 @@ def _independent_of_reading(ruleset: Ruleset, finding: Finding) -> Iterator[Cand
             written.append(quoted(f"unless {text}"))
             if text != formula_text(ruleset, conditions[number]):
                 edits += with_condition(ruleset, hedge, others[number])
-        title = f"rewrite the exceptions of rule {quoted(rule.label)} for the reading {reading}: {listed(written)}"
+        title = f"rewrite the exceptions of {rule_name(ruleset, rule)} for the reading {reading}: {listed(written)}"
         yield Candidate("canonical-form", title, tuple(edits))
 
 
@@ -77,6 +78,6 @@ def silences(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
             continue
         excluded = conjunction([negation(hedge.condition) for hedge in last if hedge.condition is not None])
         edits = [edit for hedge in last for edit in without(ruleset, hedge.span)]
-        replaced = f"{listed(map(exception, last))} of rule {quoted(label)}"
+        replaced = f"{listed(map(exception, last))} of {rule_name(ruleset, rule)}"
         title = f"replace {replaced} with a condition at its trigger: {quoted(formula_text(ruleset, excluded))}"
         yield Candidate("canonical-form", title, joined((*strengthened(ruleset, rule, excluded), *edits)))

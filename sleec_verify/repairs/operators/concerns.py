@@ -10,13 +10,14 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from sleec_runtime.model import Claim, Obligation, Rule, Ruleset
+from sleec_verify.repairs.clause_names import clause_name, rule_name
 from sleec_verify.repairs.edit import TextEdit, joined
 from sleec_verify.repairs.operators.claim_cases import giving_way, where
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import exception_text, with_exception
 from sleec_verify.repairs.statement_insertion import new_label, rule_text, with_rule_after
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import clause_name, listed, quoted
+from sleec_verify.results.phrases import listed, quoted
 
 
 def preventions(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -51,7 +52,7 @@ def _shorter_windows(ruleset: Ruleset, concern: Claim, opposite: Obligation) -> 
         for own in list(rule.clauses())[number].obligations:
             window = own.timing.window if own.timing is not None else None
             if own.name == opposite.name and window is not None and window != wanted:
-                title = f"require {quoted(own.name)} {quoted(text)} in {clause_name(rule, number)}"
+                title = f"require {quoted(own.name)} {quoted(text)} in {clause_name(ruleset, rule, number)}"
                 yield Candidate("deadline-refinement", title, (TextEdit(*window.span, text),))
 
 
@@ -60,7 +61,8 @@ def _exceptions(ruleset: Ruleset, concern: Claim, opposite: Obligation) -> Itera
     for rule, number in _clauses(ruleset, _contrary(opposite)):
         condition = where(ruleset, rule, number, concern)
         if rule.trigger == concern.event and condition is not None:
-            title = f"add to {clause_name(rule, number)}: {quoted(exception_text(ruleset, condition, [opposite]))}"
+            text = quoted(exception_text(ruleset, condition, [opposite]))
+            title = f"add to {clause_name(ruleset, rule, number)}: {text}"
             edits = with_exception(ruleset, rule, list(rule.clauses())[number], condition, [opposite])
             yield Candidate("defeater-introduction", title, edits)
 
@@ -79,7 +81,7 @@ def _rules(ruleset: Ruleset, concern: Claim, opposite: Obligation) -> Iterator[C
     for how, response in (("a condition", None), ("an exception", opposite)):
         changed = [giving_way(ruleset, rule, number, concern, response) for rule, number in contrary]
         if changed and all(changed):
-            names = listed(f"rule {quoted(rule.label)}" for rule, _ in contrary)
+            names = listed(rule_name(ruleset, rule) for rule, _ in contrary)
             yield Candidate(
                 "rule-addition",
                 f"{title}; then add {how} to {names} for this case",

@@ -9,11 +9,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from sleec_runtime.model import Obligation, Rule, Ruleset
+from sleec_verify.repairs.clause_names import clause_name
 from sleec_verify.repairs.edit import TextEdit
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import printer_of, response_text
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import clause_name, quoted
+from sleec_verify.results.phrases import quoted
 
 
 def deadlines(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -39,7 +40,7 @@ def _at_some_time(ruleset: Ruleset, rule: Rule, number: int, response: Obligatio
         edit = TextEdit(*timing.window.span, text)
     else:
         return
-    title = f"write {quoted(f'{response} {text}')} in {clause_name(rule, number)}"
+    title = f"write {quoted(f'{response} {text}')} in {clause_name(ruleset, rule, number)}"
     yield Candidate("deadline-refinement", title, (edit,), rule.label)
 
 
@@ -52,7 +53,7 @@ def _with_alternative(ruleset: Ruleset, rule: Rule, number: int, response: Oblig
     for other in others:
         if not other.negated and other.name != response.name:
             text = f"{printer_of(ruleset).keyword('otherwise')} {response_text(ruleset, [other])}"
-            title = f"add to {quoted(str(response))} in {clause_name(rule, number)}: {quoted(text)}"
+            title = f"add to {quoted(str(response))} in {clause_name(ruleset, rule, number)}: {quoted(text)}"
             start, end = response.span.start, timing.window.span.end
             edits: tuple[TextEdit, ...] = (TextEdit(end, end, f" {text}"),)
             if len(own.obligations) > 1:

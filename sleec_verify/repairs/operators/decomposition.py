@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from sleec_runtime.model import Ruleset
 from sleec_verify.encoding.equation import conjunction
+from sleec_verify.repairs.clause_names import rule_name
 from sleec_verify.repairs.edit import joined
 from sleec_verify.repairs.operators.giving_way import negation, yieldings
 from sleec_verify.repairs.repair import Candidate
@@ -20,15 +21,14 @@ def decompositions(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
     for one in yieldings(ruleset, finding):
         contradicted = [o for o in one.clause.obligations if o.name in finding.obligations]
         rest = without_obligations(ruleset, one.clause, contradicted)
-        if one.rule.hedges or len(contradicted) != 1 or rest is None:
+        if one.rule.always is not None or one.rule.hedges or len(contradicted) != 1 or rest is None:
             continue
         for condition in one.conditions[:1]:
             negated = negation(condition)
             guard = negated if one.rule.guard is None else conjunction([one.rule.guard, negated])
             label = new_label(ruleset, f"{one.rule.label}_part")
             lines = rule_text(ruleset, label, one.rule.trigger, guard, contradicted[0])
-            title = (
-                f"split rule {quoted(one.rule.label)}: move {quoted(str(contradicted[0]))} to {quoted(' '.join(lines))}"
-            )
+            moved, new = quoted(str(contradicted[0])), quoted(" ".join(lines))
+            title = f"split {rule_name(ruleset, one.rule)}: move {moved} to {new}"
             edits = joined((*rest, *with_rule_after(ruleset, one.rule, lines)))
             yield Candidate("rule-decomposition", title, edits, one.rule.label)

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from sleec_runtime.model import And, Atom, Clause, Formula, Never, Not, Obligation, Rule, Ruleset, Truth, leaves
 from sleec_verify.encoding.equation import conjunction, guard
+from sleec_verify.repairs.clause_names import clause_name, rule_name
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import (
     exception_text,
@@ -21,7 +22,7 @@ from sleec_verify.repairs.statement_edits import (
     without_obligations,
 )
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import clause_name, listed, quoted
+from sleec_verify.results.phrases import listed, quoted
 
 
 class Yielding(NamedTuple):
@@ -99,7 +100,7 @@ def guards(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
                 outer = 1 + len(_conjuncts(one.rule.guard) if one.rule.guard is not None else ())
                 exact = conjunction([*own[outer:], condition])
             negated = negation(exact)
-            title = f"add to the trigger of rule {quoted(one.rule.label)}: {quoted(_and(ruleset, negated))}"
+            title = f"add to the trigger of {rule_name(ruleset, one.rule)}: {quoted(_and(ruleset, negated))}"
             edits = strengthened(ruleset, one.rule, negated)
             yield Candidate("trigger-strengthening", title, edits, one.rule.label)
 
@@ -134,14 +135,14 @@ def refinements(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
             for condition in one.conditions:
                 refined = conjunction([one.clause.condition, negation(condition)])
                 text = quoted(formula_text(ruleset, refined))
-                title = f"narrow the condition of {clause_name(one.rule, one.number)} to {text}"
+                title = f"narrow the condition of {clause_name(ruleset, one.rule, one.number)} to {text}"
                 edits = narrowed(ruleset, one.clause, negation(condition))
                 yield Candidate("defeater-refinement", title, edits, one.rule.label)
 
 
 def _exception(ruleset: Ruleset, one: Yielding, condition: Formula, response: tuple[Obligation, ...]) -> Candidate:
     text = exception_text(ruleset, condition, response)
-    title = f"add to {clause_name(one.rule, one.number)}: {quoted(text)}"
+    title = f"add to {clause_name(ruleset, one.rule, one.number)}: {quoted(text)}"
     edits = with_exception(ruleset, one.rule, one.clause, condition, response)
     return Candidate("defeater-introduction", title, edits, one.rule.label)
 
@@ -155,4 +156,5 @@ def responses(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
         edits = without_obligations(ruleset, clause, removed)
         if removed and edits is not None:
             names = listed(quoted(str(one)) for one in removed)
-            yield Candidate("response-refinement", f"remove {names} from {clause_name(rule, number)}", edits, label)
+            title = f"remove {names} from {clause_name(ruleset, rule, number)}"
+            yield Candidate("response-refinement", title, edits, label)

@@ -8,11 +8,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from sleec_runtime.model import Claim, Obligation, Rule, Ruleset
+from sleec_verify.repairs.clause_names import clause_name
 from sleec_verify.repairs.operators.claim_cases import giving_way, where
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import exception_text, formula_text, without
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import clause_name, quoted
+from sleec_verify.results.phrases import quoted
 
 
 def relaxations(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -35,11 +36,13 @@ def _of(ruleset: Ruleset, rule: Rule, purpose: Claim) -> Iterator[Candidate]:
             continue
         blocked = [one for one in wanted if any(_contradicts(one, other) for other in clause.obligations)]
         for response in blocked:
-            title = f"add to {clause_name(rule, number)}: {quoted(exception_text(ruleset, condition, [response]))}"
+            text = quoted(exception_text(ruleset, condition, [response]))
+            title = f"add to {clause_name(ruleset, rule, number)}: {text}"
             edits = giving_way(ruleset, rule, number, purpose, response)
             yield Candidate("defeater-introduction", title, edits, rule.label)
         if clause.obligations:
-            title = f"let {clause_name(rule, number)} give way where {quoted(formula_text(ruleset, condition))}"
+            where_it_applies = quoted(formula_text(ruleset, condition))
+            title = f"let {clause_name(ruleset, rule, number)} give way where {where_it_applies}"
             yield Candidate("trigger-strengthening", title, giving_way(ruleset, rule, number, purpose), rule.label)
 
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from sleec_runtime.model import Constant, Declaration, Measure, Ruleset
+from sleec_verify.repairs.clause_names import clause_name
 from sleec_verify.repairs.edit import TextEdit
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import removed_rule, without
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import clause_name, quoted
+from sleec_verify.results.phrases import quoted
 
 DECLARATION = "remove the declaration of "
 """How the title of the removal of a declaration begins."""
@@ -36,7 +37,7 @@ def hedges(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
         if number:
             rule = ruleset.by_label[label]
             clause = list(rule.clauses())[number]
-            title = f"remove {clause_name(rule, number)}"
+            title = f"remove {clause_name(ruleset, rule, number)}"
             yield Candidate("defeater-removal", title, without(ruleset, clause.span), label)
 
 

@@ -6,10 +6,11 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from sleec_runtime.model import Ruleset
+from sleec_verify.repairs.clause_names import rule_name
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import reordered
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import exception, quoted
+from sleec_verify.results.phrases import exception
 
 
 def orders(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -19,5 +20,5 @@ def orders(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
         clause = list(rule.clauses())[number]
         for first, second in pairwise(rule.hedges):
             if clause is first or clause is second:
-                title = f"swap {exception(first)} and {exception(second)} of rule {quoted(label)}"
+                title = f"swap {exception(first)} and {exception(second)} of {rule_name(ruleset, rule)}"
                 yield Candidate("defeater-reordering", title, reordered(ruleset, first, second), label)

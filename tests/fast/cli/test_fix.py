@@ -182,6 +182,7 @@ REFUSED = [
     (("--fix", "--watch"), "--fix cannot be combined with --watch"),
     (("--fix", "--certify", "folder"), "--fix cannot be combined with --certify"),
     (("--fix", "--diff", "-o", "file"), "--fix cannot be combined with --diff -o"),
+    (("--fix", "--diff", "--format", "json"), "--fix cannot be combined with --diff --format"),
     (("--diff",), "--diff needs --fix"),
     (("--fix", "SLEEC101:1", "b.sleec"), "--fix CODE:N needs exactly one file"),
 ]

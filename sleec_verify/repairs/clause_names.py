@@ -1,0 +1,28 @@
+"""Rules and clauses as the titles of repairs name them.
+
+A change of an ALWAYS statement changes all its rules, so a title quotes the statement instead of the label of one rule.
+"""
+
+from __future__ import annotations
+
+from sleec_runtime.model import Rule, Ruleset
+from sleec_verify.results.phrases import exception, quoted
+
+
+def rule_name(ruleset: Ruleset, rule: Rule) -> str:
+    """``rule `air` ``, or `` `ALWAYS be polite` ``."""
+    if rule.always is None:
+        return f"rule {quoted(rule.label)}"
+    return always_statement(ruleset, rule)
+
+
+def always_statement(ruleset: Ruleset, rule: Rule) -> str:
+    """The ALWAYS statement of a rule without its exceptions, quoted, on one line."""
+    end = rule.hedges[0].span.start if rule.hedges else rule.span.end
+    return quoted(" ".join(ruleset.source.text[rule.span.start : end].split()))
+
+
+def clause_name(ruleset: Ruleset, rule: Rule, number: int) -> str:
+    """``rule `air` ``, or ``the exception `UNLESS c` of rule `air` `` for a clause that is not the default."""
+    name = rule_name(ruleset, rule)
+    return f"{exception(list(rule.clauses())[number])} of {name}" if number else name
