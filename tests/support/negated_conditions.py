@@ -43,6 +43,8 @@ UNCERTAIN = [
     ("it is night and the user sleeps", "it is night and the user not sleeps"),
     ("the user is awake because it is dark", "the user is not awake because it is dark"),
     ("the user is awake until noon", "the user is not awake until noon"),
+    ("the user is asleep for 5 minutes", "the user is not asleep for 5 minutes"),
+    ("the user probably is ill", "the user probably is not ill"),
     ("the user is to be disturbed", "the user is not to be disturbed"),
     ("the user is alone", "the user is never alone"),
 ]

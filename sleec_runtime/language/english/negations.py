@@ -30,8 +30,12 @@ _CONJUNCTIONS = """
 and or but nor neither if unless because since until while when whenever before after although though
 that which who whom whose where whether
 """
-_ADVERBS = "only just even also too yet still"
-_UNCLEAR = frozenset(f"{_QUANTIFIERS} {_MODALS} {_CONJUNCTIONS} {_ADVERBS}".split())
+_ADVERBS = """
+only just even also too yet still due except
+maybe perhaps probably possibly likely certainly surely apparently allegedly presumably supposedly reportedly hopefully
+"""
+_TIMES = "seconds minutes hours days weeks months years"
+_UNCLEAR = frozenset(f"{_QUANTIFIERS} {_MODALS} {_CONJUNCTIONS} {_ADVERBS} {_TIMES}".split())
 """Words with which a negation may reach less far than the whole phrase, or further."""
 
 
