@@ -30,6 +30,7 @@ _CONJUNCTIONS = """
 and or but nor neither if unless because since until while when whenever before after although though
 that which who whom whose where whether
 """
+# prose: allow maybe, because it is a word of other people's texts
 _ADVERBS = """
 only just even also too yet still due except
 maybe perhaps probably possibly likely certainly surely apparently allegedly presumably supposedly reportedly hopefully
