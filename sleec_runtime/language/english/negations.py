@@ -1,7 +1,7 @@
 """Negated conditions, such as ``it is not night``: the condition that they deny, where that is certain.
 
-It is certain if the main verb is negated, and if no word says something about how far the negation reaches. ``all doors
-are not closed`` may mean that all are open, and ``the user says that it is not night`` denies what the user says.
+It is certain if the main verb is negated, and if no word leaves open how far the negation reaches. ``all doors are not
+closed`` may mean that all are open. ``the user says that it is not night`` does not deny that the user says something.
 """
 
 from __future__ import annotations
