@@ -28,6 +28,8 @@ _IS = frozenset({"is", "are", "was", "were"})
 _VERBS = _IS | {"be", "been", "there", "has", "have", "had", "falls", "drops", "rises", "goes", "gets", "for"}
 _PRONOUNS = frozenset({"it", "this", "that"})
 _NOT = frozenset({"not", "never"})
+_PAST = frozenset({"was", "were", "been", "had"})
+_OF_AGES = frozenset({"year", "years", "old"})
 _BESIDE = frozenset({"old", "of", "age", "here", "there", "away", "present", "left", "now", "current", "currently"})
 """Words beside a comparison that change nothing about it."""
 
@@ -78,13 +80,13 @@ def _comparison(
             continue
         measure = _measure(ruleset, bound)
         if measure is not None:
-            is_whole = _says_all(bound, stems(measure).split())
+            is_whole = _says_all(bound, words, stems(measure).split())
             return _with_measure(ruleset, name, measure, f"{measure} {bound.operator} {bound.value}", is_whole)
         if _NUMBER.fullmatch(bound.value):
             subject = _subject(bound)
-            written = f"{subject or 'age'} {bound.operator} {bound.value}"
-            declaration = f"MEASURE {subject or 'age'}: number"
-            is_whole = _says_all(bound, stems(subject).split())
+            written = f"{subject or 'amount'} {bound.operator} {bound.value}"
+            declaration = f"MEASURE {subject or 'amount'}: number"
+            is_whole = _says_all(bound, words, stems(subject).split())
             text = quoted(written) if is_whole or not subject else "comparisons of it"
             advice = f"compare a measure: declare, for example, {quoted(declaration)}, and write {text}"
             message = f"{quoted(name)} is read as one name, not as a comparison"
@@ -92,13 +94,20 @@ def _comparison(
     return _value_before_measure(ruleset, name)
 
 
-def _says_all(bound: _Bound, measure: list[str]) -> bool:
-    """Whether a comparison says all that the words around it say, beside whose measure it is. `never` says something
-    about other instants, too."""
+def _says_all(bound: _Bound, all_words: list[str], measure: list[str]) -> bool:
+    """Whether a comparison says all that the words around it say, beside whose measure it is. `never` and `was` say
+    something about other instants, too. An age is in years."""
     around = [*bound.subject, *bound.rest]
     words = stems(" ".join(word.removesuffix("'s") for word in around)).split()
     said = {*_stems_beside_a_comparison(), *measure}
+    if not _PAST.isdisjoint(map(str.casefold, all_words)) or (measure == stems("age").split() and _other_units(bound)):
+        return False
     return bound.negations in ((), ("not",)) and all(word in said for word in words)
+
+
+def _other_units(bound: _Bound) -> bool:
+    """Whether the value has a unit that is not the one of ages."""
+    return any(word.casefold() in UNITS - _OF_AGES for word in bound.rest)
 
 
 @cache
@@ -168,7 +177,7 @@ def _subject(bound: _Bound) -> str:
     )
     counted = next((word for word in rest[:1] if word not in UNITS), None)
     if counted is None and words and words[-1] in PEOPLE | {"age"}:
-        return "age"
+        return "" if _other_units(bound) and words[-1] != "age" else "age"
     if counted is not None and (not words or words[-1] in PEOPLE or not bound.has_is):
         return counted
     return "_".join(words) or {"year": "age", "years": "age", "o'clock": "hour"}.get("".join(rest[:1]), "")

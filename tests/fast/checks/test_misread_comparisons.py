@@ -19,6 +19,7 @@ WRITTEN = [
     ("age isn\u2019t 6", "age != 6"),
     ("the child is not under 6", "age >= 6"),
     ("the child's age is under 6", "age < 6"),
+    ("the child is under 6 years old", "age < 6"),
     ("a child of age under 6 is here", "age < 6"),
     ("the count is not more than 5", "count <= 5"),
 ]
@@ -34,6 +35,7 @@ MORE_WORDS = """
 age is no longer under 6, nobody of age under 6 is here, age is hardly under 6, age is 7 or more, age is 6 at most,
 age is 6 to 10, age is over 18 and under 65, danger is low or high, danger is not high enough, no child is under 6,
 every child is under 6, it is not the case that age is under 6, the child or the user is under 6,
+the child was under 6, the child has been under 6, the count had been 5, age is under 6 months,
 the count is not never 5, the patient is not not exactly 18, danger is never not low, danger is not not high
 """
 OTHER_WORDS = """
@@ -71,6 +73,16 @@ def test_a_measure_that_is_not_declared(written: str) -> None:
     assert finding.code == COMPARISON
     assert finding.help is not None
     assert "MEASURE tablets: number" in finding.help
+    assert corrected(text) == text
+
+
+@pytest.mark.parametrize("unit", ["metres away", "cm", "kg", "degrees", "months old"])
+def test_a_number_of_other_units_is_no_age(unit: str) -> None:
+    text = MEASURES + RULE.format(f"the child is under 6 {unit}")
+    (finding,) = misread(text)
+    assert finding.code == COMPARISON
+    assert finding.help is not None
+    assert "age" not in finding.help
     assert corrected(text) == text
 
 
