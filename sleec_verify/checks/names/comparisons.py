@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterable, Iterator
 from functools import cache
 from typing import NamedTuple
 
+from sleec_runtime.language.english.negations import is_clear
 from sleec_runtime.model import Measure, Ruleset
 from sleec_verify.checks.names.measure_mentions import comparison_advice
 from sleec_verify.checks.names.misreading import COMPARISON, Misreading
@@ -28,6 +29,7 @@ _IS = frozenset({"is", "are", "was", "were"})
 _VERBS = _IS | {"be", "been", "there", "has", "have", "had", "falls", "drops", "rises", "goes", "gets", "for"}
 _PRONOUNS = frozenset({"it", "this", "that"})
 _NOT = frozenset({"not", "never"})
+_DENYING = frozenset({"not", "hardly", "barely", "scarcely", "almost", "nearly", "without"})
 _PAST = frozenset({"was", "were", "been", "had"})
 _OF_AGES = frozenset({"year", "years", "old"})
 _BESIDE = frozenset({"old", "of", "age", "here", "there", "away", "present", "left", "now", "current", "currently"})
@@ -83,7 +85,7 @@ def _comparison(
             is_whole = _says_all(bound, words, stems(measure).split())
             return _with_measure(ruleset, name, measure, f"{measure} {bound.operator} {bound.value}", is_whole)
         if _NUMBER.fullmatch(bound.value):
-            subject = _subject(bound)
+            subject = _subject(bound) if _is_clear(bound) else ""
             written = f"{subject or 'amount'} {bound.operator} {bound.value}"
             declaration = f"MEASURE {subject or 'amount'}: number"
             is_whole = _says_all(bound, words, stems(subject).split())
@@ -103,6 +105,12 @@ def _says_all(bound: _Bound, all_words: list[str], measure: list[str]) -> bool:
     if not _PAST.isdisjoint(map(str.casefold, all_words)) or (measure == stems("age").split() and _other_units(bound)):
         return False
     return bound.negations in ((), ("not",)) and all(word in said for word in words)
+
+
+def _is_clear(bound: _Bound) -> bool:
+    """Whether no word around a comparison denies or counts: `not`, `all`, `or`."""
+    around = [word.casefold() for word in (*bound.subject, *bound.rest) if word.casefold() not in UNITS]
+    return is_clear(around) and _DENYING.isdisjoint(around)
 
 
 def _other_units(bound: _Bound) -> bool:

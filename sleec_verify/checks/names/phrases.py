@@ -42,10 +42,13 @@ _OTHER_SUBJECT = re.compile(
 )
 _FORBIDDING = re.compile(
     rf"(?:(?:(?:the|a|an|this|your) )?(?:{'|'.join(ROBOTS)}) )?(?:{_MODAL} )?"
-    r"(?:(?:only|neither|nobody|no one|none|nothing|(?:refrain|abstain) from) .+|avoid \w+ing\b.*)",
+    r"(?:(?:only|neither|nobody|no one|none|nothing|hardly|rarely|seldom|rather not|under no) .+"
+    r"|(?:refrain|abstain) from .+|avoid \w+ing\b.*|\w+(?: \w+){0,3} never"
+    r"|(?:(?:it|\w+ing(?: \w+){0,2}) )?(?:is|are) (?:forbidden|prohibited)\b.*)",
     re.IGNORECASE,
 )
 _BEFORE_ACTIONS = NEGATIONS | MODALS | {"has", "have", "need", "needs", "is", "are", "be", "better"}
+_ADVERBS = ("only", "always", "ever", "just", "merely")
 _FORBIDDEN = "name what the robot must not do, and write NOT before it, for example: NOT open the door"
 _REQUIRED = "name what the robot must do, for example: open the door"
 _IS = re.compile(r"\b(?:is|are)\b", re.IGNORECASE)
@@ -129,7 +132,7 @@ def _said(name: str, plain: str, is_forbidden: bool) -> Iterator[Misreading]:
     verbs = found["verbs"].casefold().split()
     modals = {CONTRACTIONS.get(verb, verb) for verb in verbs}
     negations = sum(verb in NEGATIONS for verb in verbs)
-    if negations == 1 and verbs[-1] == "no":
+    if negations == 1 and (verbs[-1] == "no" or action.casefold().split()[0] in _ADVERBS):
         yield _in_obligation(name, True, _FORBIDDEN)
     elif negations and denies_action(action.casefold().split()):
         yield _with_denial(name)

@@ -66,13 +66,31 @@ def test_only_a_declared_measure_is_named(written: str) -> None:
     assert not codes(f"{MEASURES}CONDITION {written}\n{RULE.format(written)}")
 
 
-@pytest.mark.parametrize("written", ["the user has taken more than 3 tablets", "nobody with over 3 tablets is here"])
+@pytest.mark.parametrize("written", ["the user has taken more than 3 tablets", "the user ate over 3 tablets"])
 def test_a_measure_that_is_not_declared(written: str) -> None:
     text = RULE.format(written)
     (finding,) = misread(text)
     assert finding.code == COMPARISON
     assert finding.help is not None
     assert "MEASURE tablets: number" in finding.help
+    assert corrected(text) == text
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        "the temperature has not fallen below 20",
+        "the noise is hardly above 5",
+        "the child is 6 or 7",
+        "all users are 6",
+    ],
+)
+def test_words_that_deny_or_count_are_no_part_of_a_measure(written: str) -> None:
+    text = RULE.format(written)
+    (finding,) = misread(text)
+    assert finding.code == COMPARISON
+    assert finding.help is not None
+    assert "MEASURE amount: number" in finding.help
     assert corrected(text) == text
 
 

@@ -22,7 +22,9 @@ the robot is not required to leave, the robot isn't able to leave, NOT must not 
 NO_ACTION = """
 neither shout nor run, the robot must neither shout nor run, nobody may leave, no one leaves, nothing may leave,
 avoid leaving, avoid leaving the room, refrain from leaving, the robot should abstain from leaving,
-must only leave with the nurse, only leave with the nurse
+must only leave with the nurse, only leave with the nurse, not only leave, must not only leave, rather not leave,
+it is forbidden to leave, the robot is prohibited from leaving, leaving is forbidden, leaving the room is forbidden,
+leave never, hardly leave, under no circumstances leave
 """
 DENIED = """
 do not forget the keys, must not fail to not leave, must not refuse to help, do not hesitate to call the nurse,
@@ -30,7 +32,7 @@ must not avoid leaving, NOT fail to leave, forget to leave, the robot cannot dec
 """
 FINE = """
 avoid obstacles, avoid the bedroom, clean the only window, find a better seat, say that nobody may enter,
-forget the request, refuse to help, fail safely, must not stop the music
+say that it is forbidden to leave, forget the request, refuse to help, fail safely, must not stop the music
 """
 
 
