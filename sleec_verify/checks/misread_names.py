@@ -132,8 +132,8 @@ MISREAD_NAME = Check(
             "SLEEC522",
             "warning",
             "a comparison inside a name",
-            "A condition contains words such as `under 6`, or a measure and its value. The words are read as one name, "
-            "so the condition is independent of the measure and of other comparisons.",
+            "A name contains words such as `under 6`, or says something about a measure without an operator. The words "
+            "are read as one name, so it is independent of the measure and of other comparisons.",
             f"Declare a measure, and compare it with an operator. {_if_meant('SLEEC522')}",
             "WHEN the door opens THEN greet\nUNLESS the age is under 6 IN WHICH CASE wave\n",
             "MEASURE age: number\nWHEN the door opens THEN greet\nUNLESS age < 6 IN WHICH CASE wave\n",
