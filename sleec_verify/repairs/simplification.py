@@ -43,7 +43,10 @@ def simplifications(
         has_misread_names = any(result.findings for result in results if result.name == MISREAD_NAME.name)
         needed = _declared(ruleset) if has_misread_names else frozenset[str]()
         ordered = sorted(findings, key=lambda finding: finding.span, reverse=True)
-        kept = (one for finding in ordered for one in search.repairs(finding) if _needs_no_decision(one, needed))
+        found = (one for finding in ordered for one in search.repairs(finding) if _needs_no_decision(one, needed))
+        # A rule that becomes redundant may have a comment that allows this.
+        allowing = len(suppressions(ruleset)[0])
+        kept = (one for one in found if len(suppressions(one.repaired)[0]) >= allowing)
         repair = next(kept, None)
         if repair is None:
             return

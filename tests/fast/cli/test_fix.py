@@ -121,6 +121,16 @@ def test_fix_alone_keeps_what_a_comment_allows(behind: bool, code: str, cli: Cli
     assert (tmp_path / "a.sleec").read_text() == text
 
 
+def test_fix_alone_removes_no_comment_that_allows_a_finding(cli: Cli, tmp_path: Path) -> None:
+    text = "WHEN it rings THEN take photos // {}\nWHEN it rings THEN take photo // {}\nWHEN it snows THEN take photo\n"
+    merged = text.format("one", "two")
+    cli("check", "--fix", "a.sleec", files={"a.sleec": merged})
+    assert (tmp_path / "a.sleec").read_text().count("WHEN it rings") == 1
+    allowed = text.format(*[ALLOWED.format("SLEEC509").removeprefix("// ")] * 2)
+    cli("check", "--fix", "a.sleec", files={"a.sleec": allowed})
+    assert (tmp_path / "a.sleec").read_text() == allowed
+
+
 def test_fix_alone_keeps_declarations_beside_a_misread_name(cli: Cli, tmp_path: Path) -> None:
     text = (
         "MEASURE age: number // from the id card\nCONDITION polite\nWHEN the user comes THEN greet\n"
