@@ -78,7 +78,7 @@ class Dialogue:
                 else:
                     self._apply(conflicts.ruleset, repairs[int(answer) - 1])
             except EOFError:
-                print()  # ends the line of the question
+                write_line("")  # ends the line of the question
                 break
             except FileChanged as error:
                 complain(error)
