@@ -50,6 +50,8 @@ def interrupted(work: Callable[[], object], code: tuple[str, ...], moment: int) 
     """Whether `work` has so many operations; it is interrupted before that one."""
     moments = Moments(code, moment)
     before = sys.gettrace()
+    # A shell lets what runs in the background ignore Ctrl-C.
+    handler = signal.signal(signal.SIGINT, signal.default_int_handler)
     sys.settrace(moments)
     try:
         work()
@@ -57,6 +59,7 @@ def interrupted(work: Callable[[], object], code: tuple[str, ...], moment: int) 
         return True
     finally:
         sys.settrace(before)
+        signal.signal(signal.SIGINT, handler)
     return False
 
 
