@@ -127,7 +127,7 @@ class _Places:
         self._old = old
         self._new = new
         # A rule without a label is called by its number, which may change.
-        before = {rule.span.start: rule.label for rule in old.rules}
+        before = {rule.span.start: rule.label for rule in old.rules if not rule.always}
         self._labels = {
             rule.label: before[start] for rule in new.rules if (start := back.after(rule.span.start)) in before
         }
@@ -142,7 +142,8 @@ class _Places:
             if old is None or self._old.source.text[slice(*old.span)] != self._new.source.text[slice(*new.span)]:
                 continue
             if isinstance(new, Rule) and isinstance(old, Rule):
-                new = replace(new, label=old.label)
+                # An ALWAYS is a rule for each trigger, with one place for all.
+                new = replace(new, label=old.label, trigger=old.trigger if old.always else new.trigger)
             if new != old:
                 return False
         return True

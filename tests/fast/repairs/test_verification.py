@@ -58,3 +58,9 @@ def test_an_exception_about_a_finding_ends_the_checks_and_their_budgets() -> Non
         with pytest.raises(Rejected, match="SLEEC101"):
             Checking(ruleset, seen=stop).results(["conflict"])
         assert current() is before
+
+
+def test_an_always_beside_a_repair_stays_the_same() -> None:
+    """It is a rule for each trigger, and all of these have one place in the text."""
+    text = RULES + "RULE d\nWHEN S THEN D\nALWAYS be polite\n"
+    verified(text, "NOT A", "NOT B")
