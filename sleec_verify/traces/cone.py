@@ -11,9 +11,8 @@ from collections.abc import Iterable
 
 from sleec_runtime.model import Rule
 from sleec_verify.encoding.relations import Relation
-from sleec_verify.encoding.trace_scope import responses_of
 from sleec_verify.traces.index import TraceIndex
-from sleec_verify.traces.relations import Name, holds_in_empty_context, may_require, names_of_relation, names_of_rule
+from sleec_verify.traces.relations import Name, holds_in_empty_context, may_require, names_of_relation
 
 
 def cone(index: TraceIndex, events: Iterable[str], names: Iterable[Name]) -> TraceIndex:
@@ -43,8 +42,7 @@ def cone(index: TraceIndex, events: Iterable[str], names: Iterable[Name]) -> Tra
         for rule in index.by_trigger.get(name[1], ()) if name[0] == "event" else ():
             if rule.label not in rules:
                 rules[rule.label] = rule
-                ahead += (("event", response.name) for response in responses_of(rule))
-                ahead += names_of_rule(rule)
+                ahead += index.names_ahead(rule)
     return index.part(rules.values(), relations.values())
 
 

@@ -31,7 +31,7 @@ from sleec_verify.query.memo import Memo
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.traces.demands import Occurs, Responses, occurrences
 from sleec_verify.traces.event_conditions import named_events, with_states
-from sleec_verify.traces.relations import Name, names_of_relation, relation_key, required_events
+from sleec_verify.traces.relations import Name, names_of_relation, names_of_rule, relation_key, required_events
 
 _Indexed = TypeVar("_Indexed", Rule, Relation)
 
@@ -56,6 +56,7 @@ class TraceIndex(Memo):
         self.recorder = recorder
         self.responses = Responses(untimed, self.lengths)
         self._windows: dict[str, list[Occurs]] = {}
+        self._names_ahead: dict[str, tuple[Name, ...]] = {}
         self.impossible: dict[frozenset[str], frozenset[str]] = {}
         """The events that never occur under the counting rules and relations (`sleec_verify.traces.induction`)."""
 
@@ -88,6 +89,14 @@ class TraceIndex(Memo):
             found = self._windows[rule.label] = [
                 atom for clause in rule.clauses() for atom in self.atoms(clause.obligations)
             ]
+        return found
+
+    def names_ahead(self, rule: Rule) -> tuple[Name, ...]:
+        """The events of a rule's responses, and the events, conditions and measures that decide what it requires."""
+        found = self._names_ahead.get(rule.label)
+        if found is None:
+            events = (("event", response.name) for response in responses_of(rule))
+            found = self._names_ahead[rule.label] = tuple(dict.fromkeys((*events, *names_of_rule(rule))))
         return found
 
     def atoms(self, obligations: tuple[Obligation, ...]) -> Iterator[Occurs]:
