@@ -21,7 +21,7 @@ MOST_ASSUMING = 10_000
 BOUND = 1.3
 """How much more than in proportion the largest step may cost."""
 
-# Runs the command and then says what it cost, from the operating system's own account of it.
+# Runs the command and then prints its resource usage, as the operating system reports it.
 MEASURE = """
 import resource, subprocess, sys
 check = [sys.executable, "-m", "sleec_verify", "check", "--no-cache", "--format", "json", sys.argv[1]]

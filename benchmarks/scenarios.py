@@ -33,7 +33,7 @@ WINDOWS = {
     ),
 }
 
-# Runs a command and then says what it cost, from the operating system's own account of it.
+# Runs a command and then prints its resource usage, as the operating system reports it.
 MEASURE = """
 import resource, subprocess, sys
 subprocess.run([sys.executable, "-m", "sleec_verify", *sys.argv[1:]], stdout=subprocess.DEVNULL)

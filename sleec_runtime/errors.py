@@ -286,6 +286,25 @@ class SnapshotRefused(SleecError):
     time, or already restored. Nothing changes."""
 
 
+# Raised for records of missions ----------------------------------------------------------------------------------
+
+
+class MalformedObservation(SleecError):
+    """An observation of a mission that is not in the form of docs/audit.md."""
+
+
+class MappingError(SleecError):
+    """A mapping of topics to names of a ruleset that is malformed, or does not fit the ruleset."""
+
+
+class UnreadableLog(SleecError):
+    """A log of a mission that cannot be read: missing, forbidden, of another form, or changed meanwhile."""
+
+
+class UnwritableLog(SleecError):
+    """A log of a mission that cannot be written: it exists, or its folder does not allow it."""
+
+
 class NotEnforced(UserWarning):
     """Constructs of a ruleset that the runtime does not enforce. `constructs` pairs each with its line."""
 

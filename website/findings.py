@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import TypedDict
 
 from sleec_runtime.language import parse
+from sleec_verify.audit import kinds as audit
 from sleec_verify.checks import CHECKS
 from sleec_verify.conformance import structure
 from sleec_verify.conformance.structure.examples import files_of
@@ -23,7 +24,7 @@ _INTRODUCTION = """\
 Every finding has a code. Its page says what is wrong, why it matters and how to fix it. It has an example with the
 problem, and one without. `sleec-verify rules CODE` prints the same text offline.
 
-Errors make `check` and `conform` fail. Warnings and notes do so with a lower `--fail-level`.
+Errors make `check`, `conform` and `audit` fail. Warnings and notes do so with a lower `--fail-level`.
 """
 
 
@@ -96,6 +97,8 @@ def _example(entry: Entry, text: str) -> Iterator[str]:
 
 def example_files(entry: Entry, text: str) -> Mapping[str, str]:
     """The files of one of an entry's examples, by their names."""
+    if entry["check"] == audit.NAME:
+        return audit.files_of(text)
     return files_of(text) if entry["check"] == structure.NAME else {"rules.sleec": text}
 
 
@@ -103,12 +106,16 @@ def command_for(entry: Entry) -> tuple[str, ...]:
     """The arguments of the command that makes the finding, in a folder with the files of an example."""
     if entry["check"] in CHECKS:
         return ("check", "rules.sleec", *_ASKED_FOR.get(entry["check"], ()))
+    if entry["check"] == audit.NAME:
+        return audit.arguments_of(entry["bad"])
     return ("conform", "robot.py", "--ruleset", "rules.sleec")
 
 
 def _language(name: str, text: str) -> str:
     if name.endswith(".py"):
         return "python"
+    if not name.endswith(".sleec"):
+        return "toml" if name.endswith(".toml") else "text"
     return "dsl" if parse(text).syntax == "dsl" else "sleec"
 
 

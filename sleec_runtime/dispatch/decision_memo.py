@@ -7,10 +7,10 @@ Michie 1968). The conditions are compiled to functions, one for each formula, ov
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from operator import eq, ge, gt, le, lt, ne
 from typing import Any
 
 from sleec_runtime.dispatch.plan import Plan
+from sleec_runtime.evaluation.formula_truth import OPERATORS
 from sleec_runtime.evaluation.hedge_chain import Outcome
 from sleec_runtime.model import (
     And,
@@ -22,7 +22,6 @@ from sleec_runtime.model import (
     MeasureRef,
     Not,
     Number,
-    Operator,
     Rule,
     ScaleValue,
     Term,
@@ -40,8 +39,6 @@ Test = Callable[[Rows], bool]
 
 MOST = 1_024
 """The combinations that are kept of one rule, or of the rules of one trigger. Rules that people write have few."""
-
-_OPERATORS: Mapping[Operator, Callable[[Any, Any], bool]] = {"<": lt, "<=": le, "=": eq, "!=": ne, ">=": ge, ">": gt}
 
 
 class TriggerOutcomes:
@@ -137,7 +134,7 @@ def _compiled(formula: Formula, trigger: str, places: Places, measures: Mapping[
 
 def _comparison(comparison: Comparison, places: Places, measures: Mapping[str, Measure]) -> Test:
     left, right = comparison.left, comparison.right
-    compare = _OPERATORS[comparison.operator]
+    compare = OPERATORS[comparison.operator]
     if isinstance(left, MeasureRef) and isinstance(right, MeasureRef):
         one, other = _value(left, places, measures), _value(right, places, measures)
         return lambda rows: (a := one(rows)) is not None and (b := other(rows)) is not None and compare(a, b)

@@ -8,13 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from types import CoroutineType
+from typing import Any
+
+import contextpy3
 
 from sleec_runtime.dispatch.decisions import due_in
 from sleec_runtime.dispatch.instance import Instance
 from sleec_runtime.dispatch.plan import Args, Kwargs, Plan
 from sleec_runtime.dispatch.snapshot import Snapshot
-from sleec_runtime.dispatch.variants import Unfinished, await_under, run_all, run_alone
+from sleec_runtime.dispatch.variants import Unfinished, await_under, run_under
 from sleec_runtime.errors import NeedsAwait, VariantsFailed
+
+_TLS: Any = contextpy3._TLS
 
 
 def plan(snapshot: Snapshot, triggers: tuple[str, ...], instance: Instance) -> Plan:
@@ -34,11 +39,26 @@ def run(plan: Plan, args: Args, kwargs: Kwargs) -> list[object]:
 
     To be called after `Plan.refuse_misfits` and `Plan.refuse_coroutines`.
     """
+    results: list[object] = []
     errors: list[tuple[str, Exception]] = []
-    if len(plan.variants) == 1:
-        results = [run_alone(plan.variants[0], args, kwargs)]
-    else:
-        results, errors = run_all(plan.variants, args, kwargs)
+    for variant in plan.variants:
+        result: object = None
+        # As `run_under`, without a call, which would take time on the way to the code.
+        layers, context = _TLS.active_layers, _TLS.context
+        try:
+            if layers or variant.direct is None:
+                result = run_under(variant, args, kwargs)
+            else:
+                _TLS.active_layers, _TLS.context = (
+                    variant.layers,
+                    [variant.instance, variant.owner, variant.proceeds_to],
+                )
+                result = variant.direct(*args, **kwargs)
+        except Exception as error:  # noqa: BLE001 - raised again once all have run, because each rule obliges its own
+            errors.append((variant.label, error))
+        finally:
+            _TLS.active_layers, _TLS.context = layers, context
+        results.append(result)
     for result in results:
         if type(result) is CoroutineType or type(result) is Unfinished:
             result.close()

@@ -36,6 +36,7 @@ class Instance:
 
     The runtime holds its lock for changes, but not to look up variants. `takes_time` are the obligations that are not
     fulfilled when their callables return. `fitting` caches which arguments fit which code, for rules with times.
+    If it `is_partial`, other processes have the code of some rules, so that these may come into force without code.
     """
 
     def __init__(self, ruleset: Ruleset) -> None:
@@ -47,6 +48,7 @@ class Instance:
         self._callables: dict[str, Callable[..., Any]] = {}
         self._robots: tuple[object, ...] = ()
         self.takes_time: frozenset[str] = frozenset()
+        self.is_partial = False
         self.fitting: set[tuple[object, ...]] = set()
         self._variants: dict[tuple[str, int], tuple[Clause, Variant | None]] = {}
         self.admit(ruleset)
@@ -62,6 +64,7 @@ class Instance:
         copy._callables = dict(self._callables)
         copy._robots = self._robots
         copy.takes_time = self.takes_time
+        copy.is_partial = self.is_partial
         copy.fitting = set()
         copy._variants = {}
         return copy
@@ -190,6 +193,11 @@ class Instance:
     def has_method(self, label: str) -> bool:
         """Whether the rule has a method. If not, its variants are composed of callables."""
         return label in self._methods
+
+    def has_code(self, rule: Rule) -> bool:
+        """Whether the rule has a method, or an obligation of it has a callable."""
+        names = (literal.name for clause in rule.clauses() for literal in clause.obligations)
+        return rule.label in self._methods or any(name in self._callables for name in names)
 
     def given(self, name: str) -> Callable[..., Any] | None:
         """The callable of an obligation, as given to `implement`."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from sleec_runtime.dispatch.decision_memo import TriggerMemo, TriggerOutcomes
+from sleec_runtime.dispatch.plan import Plan
 from sleec_runtime.dispatch.rule_index import RuleIndex
 from sleec_runtime.evaluation.formula_truth import Situation
 from sleec_runtime.evaluation.hedge_chain import Outcome, walk
@@ -47,9 +48,10 @@ class Snapshot:
 
     `number` counts the changes. `mark` is a new object if a change concerns a name in a `NEVER`: a plan is valid as
     long as the mark is the same. `rows` are the rows of `TriggerOutcomes`, for fast dispatch.
+    `ready_plans` has the plans of rules without times that have passed all checks, by trigger.
     """
 
-    __slots__ = ("_memos", "_outcomes", "_values", "index", "mark", "number", "rows")
+    __slots__ = ("_memos", "_outcomes", "_values", "index", "mark", "number", "ready_plans", "rows")
 
     def __init__(
         self,
@@ -67,6 +69,7 @@ class Snapshot:
         self.rows = outcomes.rows
         self.mark = mark
         self.number = number
+        self.ready_plans: dict[str, Plan] = {}
         self._memos = memos
 
     @classmethod

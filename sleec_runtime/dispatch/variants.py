@@ -93,34 +93,12 @@ def _past_the_variant(chain: Any) -> Any:
     return chain._successor
 
 
-def run_all(
-    variants: Sequence[Variant], args: tuple[Any, ...], kwargs: dict[str, Any]
-) -> tuple[list[object], list[tuple[str, Exception]]]:
-    """Runs the variants in order, each under its own layer. Returns the results, and the errors with rule labels.
+def run_under(variant: Variant, args: tuple[Any, ...], kwargs: dict[str, Any]) -> object:
+    """Runs one variant under its own layer, and returns its result. Raises its error.
 
-    If a variant raises, the next ones still run, because their rules oblige them independently. Layers of this thread
-    that belong to no rule stay active. Layers of rules do not, so that a trigger within a variant starts without them.
+    Layers of this thread that belong to no rule stay active. Layers of rules do not, so that a trigger within a variant
+    starts without them.
     """
-    layers, context = _TLS.active_layers, _TLS.context
-    foreign = _foreign(layers) if layers else ()
-    results: list[object] = []
-    errors: list[tuple[str, Exception]] = []
-    try:
-        for variant in variants:
-            _TLS.active_layers = foreign + variant.layers
-            result: object = None
-            try:
-                result = variant.chain([variant.instance, variant.owner, None], args, kwargs)
-            except Exception as error:  # noqa: BLE001 - raised again once all have run
-                errors.append((variant.label, error))
-            results.append(result)
-    finally:
-        _TLS.active_layers, _TLS.context = layers, context
-    return results, errors
-
-
-def run_alone(variant: Variant, args: tuple[Any, ...], kwargs: dict[str, Any]) -> object:
-    """Runs one variant as `run_all` does, and returns its result. Raises its error."""
     layers, context = _TLS.active_layers, _TLS.context
     _TLS.active_layers = _foreign(layers) + variant.layers if layers else variant.layers
     try:
@@ -142,9 +120,7 @@ async def await_under(variant: Variant, args: tuple[Any, ...], kwargs: dict[str,
 
     ContextPy3 activates layers for a thread, and other coroutines run in the thread between two steps.
     """
-    (result,), errors = run_all((variant,), args, kwargs)
-    if errors:
-        raise errors[0][1]
+    result = run_under(variant, args, kwargs)
     return await _steps(result, variant) if inspect.isawaitable(result) else result
 
 
@@ -211,7 +187,10 @@ class Unfinished:
 
 
 def in_order(functions: Sequence[Callable[..., Any]]) -> Callable[..., Any]:
-    """A function that calls `functions` in order, and returns an `Unfinished` if one of them returns a coroutine."""
+    """A function that calls `functions` in order, and returns an `Unfinished` if one of them returns a coroutine. For
+    one function, it is that function."""
+    if len(functions) == 1:
+        return functions[0]
     if any(map(is_coroutine_function, functions)):
 
         async def awaited(*args: Any, **kwargs: Any) -> None:

@@ -34,7 +34,7 @@ def decision_in_words(decision: Decision, context: Context) -> str:
     clause = "the default response" if decision.layer is None else f"exception {decision.layer}"
     what = ", ".join(map(str, decision.obligations)) or "nothing"
     lines = [f"{decision.rule.label}: {clause} requires {what}"]
-    lines += [f"  {_step(step, context)}" for step in decision.steps]
+    lines += [f"  {step_in_words(step, context)}" for step in decision.steps]
     return "\n".join(lines)
 
 
@@ -56,7 +56,8 @@ def _with_rules(literal: Obligation, decisions: tuple[Decision, ...]) -> str:
     return f"{literal} ({listed(labels)})" if labels else str(literal)
 
 
-def _step(step: ConditionTest, context: Context) -> str:
+def step_in_words(step: ConditionTest, context: Context) -> str:
+    """The test of a condition with its result, and the values that decided it."""
     where = "guard" if step.clause is None else f"clause {step.clause}"
     values = ", ".join(dict.fromkeys(_values(step.condition, context)))
     text = f"{where}: {print_formula(step.condition)} is {'true' if step.held else 'false'}"

@@ -25,6 +25,7 @@ from sleec_runtime.model import (
     MeasureRef,
     Not,
     Number,
+    Operator,
     Or,
     Rational,
     ScaleValue,
@@ -39,7 +40,7 @@ from sleec_runtime.model import (
 NO_MEASURES: Mapping[str, Measure] = MappingProxyType({})
 _NOTHING_OBLIGED: Mapping[str, bool] = MappingProxyType({})
 
-_OPERATORS: Mapping[str, Callable[[Any, Any], bool]] = {
+OPERATORS: Mapping[Operator, Callable[[Any, Any], bool]] = {
     "<": operator.lt,
     "<=": operator.le,
     "=": operator.eq,
@@ -134,11 +135,11 @@ def _comparison(comparison: Comparison, situation: Situation) -> bool | None:
         calculated = _calculated(left, situation)
         if calculated is None:
             return situation.absent
-        return _OPERATORS[comparison.operator](calculated, _value_of(right, left, situation))
+        return OPERATORS[comparison.operator](calculated, _value_of(right, left, situation))
     measured = [situation.context.conditions.get(side.name) for side in (left, right) if isinstance(side, MeasureRef)]
     if None in measured:
         return situation.absent
-    return _OPERATORS[comparison.operator](_value_of(left, right, situation), _value_of(right, left, situation))
+    return OPERATORS[comparison.operator](_value_of(left, right, situation), _value_of(right, left, situation))
 
 
 def _calculated(side: Calculation, situation: Situation) -> Rational | None:

@@ -52,15 +52,25 @@ class Dispatcher:
             known = outcomes.plan = plan(snapshot, names, self._state()[1])
         return known
 
-    def trigger(
-        self, snapshot: Snapshot, names: tuple[str, ...], args: Args, kwargs: Kwargs, monitor: Monitor | None
-    ) -> Done:
+    def ready(self, snapshot: Snapshot, names: tuple[str, ...], args: Args, kwargs: Kwargs) -> Plan:
+        """The plan of a dispatch with these arguments, which all checks have accepted."""
         ready = self.plan(snapshot, names)
         if kwargs or len(args) not in ready.ready_for:
             ready.refuse_misfits(args, kwargs)
             ready.refuse_coroutines()
             if not kwargs:
                 ready.ready_for.add(len(args))
+        return ready
+
+    def anticipate(self, snapshot: Snapshot, name: str, args: Args) -> None:
+        snapshot.ready_plans[name] = self.ready(snapshot, (name,), args, {})
+
+    def trigger(
+        self, snapshot: Snapshot, names: tuple[str, ...], args: Args, kwargs: Kwargs, monitor: Monitor | None
+    ) -> Done:
+        ready = self.ready(snapshot, names, args, kwargs)
+        if len(names) == 1:
+            snapshot.ready_plans[names[0]] = ready  # for the next `Sleec.trigger`
         if monitor is None:
             return Done(ready, snapshot, run(ready, args, kwargs))
         with monitor.observe(names, snapshot):

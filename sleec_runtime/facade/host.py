@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from sleec_runtime.concurrency.critical_section import CriticalSection, exclusive
 from sleec_runtime.dispatch.instance import Instance
@@ -15,6 +15,8 @@ from sleec_runtime.model import Rule
 
 if TYPE_CHECKING:
     from sleec_runtime.monitor.monitor import Monitor
+
+T = TypeVar("T")
 
 Listener = Callable[[Snapshot, Snapshot, "tuple[Rule, ...]"], None]
 """Gets each change: the context before, the context after, and the rules whose outcomes were computed again."""
@@ -36,6 +38,11 @@ class Host:
         """L: the layers by name, for ``@cop.around(sleec.layers["dress_assist.hc1"])``. Raises UnknownLayer."""
         return self._instance.layers
 
+    @property
+    def code(self) -> Instance:
+        """The code that is bound to the rules."""
+        return self._instance
+
     def listen(self, listener: Listener, objection: Listener | None = None) -> Callable[[], None]:
         """Calls `listener` after each change of context, before the next one. Returns a function that ends this.
 
@@ -53,9 +60,10 @@ class Host:
         return end
 
     @exclusive
-    def hold(self, act: Callable[[Snapshot], None]) -> None:
-        """Calls `act` with the current context, which does not change meanwhile: changes wait, dispatches do not."""
-        act(self._snapshot)
+    def hold(self, act: Callable[[Snapshot], T]) -> T:
+        """Calls `act` with the current context, and returns its result. The context does not change meanwhile: changes
+        wait, dispatches do not."""
+        return act(self._snapshot)
 
     def attach(self, monitor: Monitor) -> None:
         """Lets `monitor` observe each dispatch; call it within `hold`. Raises SleecError if another monitor does."""

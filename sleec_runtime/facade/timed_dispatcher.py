@@ -37,6 +37,9 @@ class TimedDispatcher(Dispatcher):
             clock = self._own_clock = MonotonicClock()
         self.scheduler = Scheduler(state, clock, chains, on_error)
 
+    def anticipate(self, snapshot: Snapshot, name: str, args: Args) -> None:
+        self.ready(snapshot, (name,), args, {})
+
     def trigger(
         self, snapshot: Snapshot, names: tuple[str, ...], args: Args, kwargs: Kwargs, monitor: Monitor | None
     ) -> Done:

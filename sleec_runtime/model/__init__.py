@@ -20,6 +20,7 @@ from sleec_runtime.model.declaration import Declaration as Declaration
 from sleec_runtime.model.declaration import DeclaredKind as DeclaredKind
 from sleec_runtime.model.declaration import Measure as Measure
 from sleec_runtime.model.declaration import MeasureKind as MeasureKind
+from sleec_runtime.model.formula import NEGATED as NEGATED
 from sleec_runtime.model.formula import And as And
 from sleec_runtime.model.formula import Atom as Atom
 from sleec_runtime.model.formula import Comparison as Comparison

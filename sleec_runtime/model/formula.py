@@ -5,7 +5,7 @@ A formula is built from atoms and comparisons with NOT, AND and OR. Its meaning 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Literal, Union
 
@@ -15,6 +15,8 @@ from sleec_runtime.support.spans import NOWHERE, Span
 
 Kind = Literal["trigger", "condition", "obligation"]
 Operator = Literal["<", "<=", "=", "!=", ">=", ">"]
+NEGATED: Mapping[Operator, Operator] = {"<": ">=", "<=": ">", "=": "!=", "!=": "=", ">=": "<", ">": "<="}
+"""The operator of a comparison that holds exactly if one with the given operator does not."""
 
 
 @dataclass(frozen=True, slots=True)

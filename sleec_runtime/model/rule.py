@@ -45,9 +45,11 @@ class Rule:
     def clauses(self) -> Iterator[Clause]:
         """Every clause in text order, nested ones after the clause that holds them. The index of a clause is its
         number: 0 is the default, i has the layer ``label.hci``."""
-        yield from in_text_order(self.default)
-        for hedge in self.hedges:
-            yield from in_text_order(hedge)
+        for clause in (self.default, *self.hedges):
+            if clause.hedges:
+                yield from in_text_order(clause)
+            else:
+                yield clause
 
     def layer(self, number: int) -> str | None:
         """The name of the layer of clause `number`; None for the default, which has the ε of the rule."""

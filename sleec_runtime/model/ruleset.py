@@ -107,13 +107,13 @@ class Ruleset:
     def triggers(self) -> frozenset[str]:
         """T (paper, Section 3.2): the declared triggers and events, and the triggers in rules and constraints."""
         declared = self.declared["trigger"] | self.declared["event"]
-        of_rules = {rule.trigger for rule in self.rules} | self._named_in_rules("trigger")
+        of_rules = {rule.trigger for rule in self.rules} | self._named_in_rules["trigger"]
         return declared | of_rules | self._named_in_constraints("trigger")
 
     @cached_property
     def conditions(self) -> frozenset[str]:
         """The Boolean part of C (paper, Section 3.2); the measures are in `measures`."""
-        used = self._named_in_rules("condition") | self._named_in_constraints("condition")
+        used = self._named_in_rules["condition"] | self._named_in_constraints("condition")
         return self.declared["condition"] | used
 
     @cached_property
@@ -123,14 +123,16 @@ class Ruleset:
         exclusive = {name for c in self.constraints if isinstance(c, Exclusive) for name in c.names}
         return self.declared["obligation"] | used | exclusive | self._named_in_constraints("obligation")
 
-    def _named_in_rules(self, kind: Kind) -> frozenset[str]:
-        return frozenset(
-            leaf.name
-            for rule in self.rules
-            for formula in formulas_of(rule)
-            for leaf in leaves(formula)
-            if isinstance(leaf, Atom) and leaf.kind == kind
-        )
+    @cached_property
+    def _named_in_rules(self) -> Mapping[Kind, set[str]]:
+        """The names of the atoms in guards and conditions, by kind."""
+        found: dict[Kind, set[str]] = {"trigger": set(), "condition": set(), "obligation": set()}
+        for rule in self.rules:
+            for formula in formulas_of(rule):
+                for leaf in leaves(formula):
+                    if isinstance(leaf, Atom):
+                        found[leaf.kind].add(leaf.name)
+        return found
 
     def _named_in_constraints(self, kind: Kind) -> frozenset[str]:
         return frozenset(

@@ -43,9 +43,11 @@ def read_file(path: str | Path) -> bytes:
         ValueError: `path` holds a NUL character.
     """
     with open(path, "rb", opener=_open_without_waiting) as file:
-        mode = os.fstat(file.fileno()).st_mode
-        if not stat.S_ISREG(mode):
+        status = os.fstat(file.fileno())
+        if not stat.S_ISREG(status.st_mode):
             raise OSError(errno.EINVAL, "it is not a regular file", os.fspath(path))
+        # Before anything is read. `read_stream` checks again, because the file may grow.
+        check_size(status.st_size)
         return read_stream(file)
 
 

@@ -32,12 +32,13 @@ class Source:
     """A text and its origin.
 
     `path` is the path of the file, or a name such as ``<stdin>``. `sha256` is the digest of the bytes of the file, if
-    known.
+    known. `first_line` is the number of its first line in the file, if the text is a part of the file.
     """
 
     path: str
     text: str
     sha256: str | None = None
+    first_line: int = 1
 
     @cached_property
     def _line_starts(self) -> list[int]:
@@ -53,11 +54,15 @@ class Source:
         starts = self._line_starts
         line = bisect_right(starts, span.start)
         end_line = bisect_right(starts, span.end)
-        return Place(line, span.start - starts[line - 1] + 1, end_line, span.end - starts[end_line - 1] + 1)
+        before = self.first_line - 1
+        return Place(
+            before + line, span.start - starts[line - 1] + 1, before + end_line, span.end - starts[end_line - 1] + 1
+        )
 
     def line(self, number: int) -> str:
-        """The text of a line, counted from 1, without its line break."""
+        """The text of a line, by its number in the file, without its line break."""
         starts = self._line_starts
-        start = starts[number - 1]
-        end = starts[number] if number < len(starts) else len(self.text)
+        index = number - self.first_line
+        start = starts[index]
+        end = starts[index + 1] if index + 1 < len(starts) else len(self.text)
         return self.text[start:end].rstrip("\r\n")

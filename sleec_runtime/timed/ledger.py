@@ -81,7 +81,7 @@ class Ledger:
         return result
 
     def after_fork(self) -> None:
-        """Leaves what is pending, and the decided actions, to the parent process."""
+        """Leaves the pending obligations and the decided actions to the parent process."""
         self._section.after_fork()
         self._forked = self._forked or any(True for _ in self.agenda)
         self.actions.clear()

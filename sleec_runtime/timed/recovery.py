@@ -27,8 +27,8 @@ from sleec_runtime.timed.unit import Unit, composed_units, units_of
 
 @dataclass(frozen=True)
 class Heir:
-    """The instance that continues with what is pending: its rules and code, and the time on its `clock` and in the
-    `world`."""
+    """The instance that continues with the pending obligations: its rules and code, and the time on its `clock` and in
+    the `world`."""
 
     index: RuleIndex
     instance: Instance
@@ -200,7 +200,7 @@ def _task(data: object, where: str, dispatches: Sequence[_Dispatch]) -> Task:
     if item["obligation"] != task.name:
         refuse_malformed(f"{where}.obligation", item["obligation"], f"{task.name}, which is at its path")
     if item["state"] not in (("in force",) if task.literal.negated else ("waiting", "under way")):
-        refuse_malformed(f"{where}.state", item["state"], "a state of what is pending")
+        refuse_malformed(f"{where}.state", item["state"], "a state of a pending obligation")
     if type(item["broken"]) is not bool or (item["broken"] and not task.literal.negated):
         refuse_malformed(f"{where}.broken", item["broken"], "true for a prohibition only, or false")
     if dispatch.code is None and may_run_code(task):

@@ -74,7 +74,7 @@ def _refuse_if_forbidden(task: Task, prohibitions: Iterable[Task], now: Time) ->
     """Raises Prohibited if one of `prohibitions` covers the window of `task`, and the task has no alternatives."""
     if not task.is_decided or (task.at_once and task.state != "waiting"):
         return
-    # The start of what is due at once counts, also if it takes time.
+    # An obligation that is due at once is fulfilled by its start, even if its execution takes time.
     last = task.first if task.at_once else task.last
     for other in prohibitions:
         if other.name == task.name and other.covers_all(max(task.first, now), last):

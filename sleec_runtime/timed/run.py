@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from types import CoroutineType
 
 from sleec_runtime.dispatch.plan import Plan
-from sleec_runtime.dispatch.variants import Unfinished, Variant, await_under, run_all
+from sleec_runtime.dispatch.variants import Unfinished, Variant, await_under, run_under
 from sleec_runtime.errors import NeedsAwait
 from sleec_runtime.evaluation.due import Due
 from sleec_runtime.model import Obligation
@@ -69,10 +69,9 @@ class Run:
                 result: object = None
                 error: BaseException | None = None
                 try:
-                    (result,), errors = run_all((variant,), unit.origin.args, dict(unit.origin.kwargs))
-                    error = errors[0][1] if errors else None
+                    result = run_under(variant, unit.origin.args, dict(unit.origin.kwargs))
                 except BaseException as raised:
-                    if not unattended:
+                    if not unattended and not isinstance(raised, Exception):
                         raise
                     error = raised
                 if type(result) is CoroutineType or type(result) is Unfinished:

@@ -1,7 +1,7 @@
 """The scheduler of rules with times.
 
-A dispatch decides, checks and records what is due in one change of the ledger, and runs code outside of it. So no other
-dispatch, by a trigger or by the clock, ever sees a part of its tasks.
+A dispatch decides, checks and records its tasks in one change of the ledger, and runs code outside of it. So no other
+dispatch, by a trigger or by the clock, ever sees a part of them.
 """
 
 from __future__ import annotations

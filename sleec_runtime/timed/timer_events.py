@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
 
 class TimerEvents:
-    """Starts what is due when a window opens, and the alternatives when a window closes unfulfilled. `execute` runs the
-    code.
+    """Starts obligations when their windows open, and the alternatives when a window closes unfulfilled. `execute` runs
+    the code.
 
     Errors are reported to `failures` and not raised, except a KeyboardInterrupt in the main thread, which is both.
     """
@@ -126,7 +126,7 @@ class TimerEvents:
         self._start(alternative_stage(task, alternatives, self._admission.moment().snapshot), alternatives, at)
 
     def _start(self, stage: Stage, tasks: Sequence[Task], at: Time) -> None:
-        """Starts what is due now. What is forbidden now starts when it no longer is, if its window still lasts."""
+        """Starts the due tasks. A forbidden task starts when the prohibition ends, if its window is still open."""
         loop = _running_loop()
         try:
             run = self._ledger.attempt(partial(self._admit_when_allowed, stage, at, in_loop=loop is not None))

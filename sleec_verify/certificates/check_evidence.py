@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from sleec_verify.certificates.manifest import FORMULAS, Evidence, Uncertified
 from sleec_verify.results.finding import Proved, Refuted, Unknown
-from sleec_verify.results.phrases import counted
+from sleec_verify.wording.phrases import counted
 
 if TYPE_CHECKING:
     from sleec_verify.certificates.refutation import Disjunction

@@ -16,7 +16,7 @@ from sleec_verify.replay.traces import replay_example, replay_found
 from sleec_verify.results.conflict_freedom import Example, FreeComponent, LaterInstant, UsedTemplate
 from sleec_verify.results.found_trace import FoundTrace
 from sleec_verify.results.json_values import Json, values_json
-from sleec_verify.results.phrases import listed, quoted
+from sleec_verify.wording.phrases import listed, quoted
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Value

@@ -158,15 +158,18 @@ class Checking:
         realizable: int = 1,
         chains: bool = True,
         seen: Callable[[Finding], None] | None = None,
+        domains: Sequence[str] | None = None,
     ) -> None:
         """`realizable` is the number of acts of the environment in that check. Without `chains`, responses trigger
-        no rules. `seen` is called for each confirmed finding as soon as it is found; what it raises ends the checks."""
+        no rules. `seen` gets each confirmed finding as soon as it is found. An exception from it ends the checks.
+        `domains` replaces the domains of the ruleset, if it is a part of one with more of them."""
         self._seen = seen
         self._checks: Mapping[str, Check] = {**CHECKS, REALIZABILITY.name: realizability(realizable)}
         known: Callable[[Ruleset], RulesetIndex] = partial(
             RulesetIndex, recorder=recorder, untimed=untimed, chains=chains
         )
-        domains = ruleset.domains if domain is None else (domain,)
+        if domains is None:
+            domains = ruleset.domains if domain is None else (domain,)
         self.whole = known(ruleset)
         self.by_domain = {d: known(ruleset.in_domain(d)) for d in domains} or {"": self.whole}
 

@@ -10,8 +10,9 @@ from sleec_verify.encoding.budget import Undecided
 from sleec_verify.query.question import Question, is_possible
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import listed
 from sleec_verify.traces.partition import without
+from sleec_verify.wording.phrases import listed
+from sleec_verify.wording.sentence import sentence
 
 
 def _contradictory(index: RulesetIndex) -> Iterator[Finding]:
@@ -25,14 +26,18 @@ def _contradictory(index: RulesetIndex) -> Iterator[Finding]:
     spans = [index.assumptions[position].span for position in needed]
     place = index.ruleset.source.place
     lines = [str(place(span).line) for span in spans]
-    note = "no situation remains, so no rule ever applies, and no other result about this ruleset means anything"
+    note = sentence(
+        "no situation remains, so no rule ever applies, and no other result about this ruleset means anything"
+    )
     yield ASSUMPTIONS.finding(
-        "this assumption can never be true"
+        sentence("this assumption can never be true")
         if len(spans) == 1
-        else f"the assumptions in lines {listed(lines)} contradict each other",
+        else sentence("the assumptions in lines {lines} contradict each other", lines=listed(lines)),
         spans[0],
-        note=note if minimal else f"{note}; some of these assumptions may contradict each other without the rest",
-        related=tuple((span, "part of the contradiction") for span in spans[1:]),
+        note=note
+        if minimal
+        else sentence("{note}; some of these assumptions may contradict each other without the rest", note=note),
+        related=tuple((span, sentence("part of the contradiction")) for span in spans[1:]),
     )
 
 

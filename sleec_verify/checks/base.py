@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Literal
 from sleec_runtime.model import Clause, Formula, Obligation, Span
 from sleec_verify.encoding.equation import guard
 from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
-from sleec_verify.results.finding import ClauseRef, Finding, Severity, Witness
+from sleec_verify.results.finding import ClauseRef, Finding, Witness
+from sleec_verify.results.finding_kind import FindingKind as FindingKind
 
 if TYPE_CHECKING:
     from sleec_verify.results.strategy import Strategy
@@ -18,20 +19,6 @@ if TYPE_CHECKING:
 Scope = Literal["some domain", "every domain", "text"]
 """Where a finding must hold to count: in some domain, in every domain in which its first rule applies, or whatever
 the domain, because it is about the text."""
-
-
-@dataclass(frozen=True)
-class FindingKind:
-    """The documentation of one finding code: `bad` is a ruleset with the problem, `good` is `bad` without it, and
-    `mend` says how to fix it."""
-
-    code: str
-    severity: Severity
-    title: str
-    explanation: str
-    mend: str
-    bad: str
-    good: str
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,9 @@ from sleec_verify.checks.questions import ask_each
 from sleec_verify.checks.relevant_rules import in_words, rules_in
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding, Witness
-from sleec_verify.results.phrases import listed, quoted
 from sleec_verify.traces.index import trace_index_of
+from sleec_verify.wording.phrases import listed, quoted
+from sleec_verify.wording.sentence import plural, sentence
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Claim
@@ -30,13 +31,13 @@ def _concerns(index: RulesetIndex) -> Iterator[Finding]:
         timeline = timeline_of(trace_index_of(index), answer.trace)
         moment = next(m for m in timeline.moments if claim.event in m.events)
         yield CONCERN.finding(
-            f"the concern {quoted(claim.label)} can happen although every rule is followed",
+            sentence("the concern {claim} can happen although every rule is followed", claim=quoted(claim.label)),
             claim.label_span,
             rules=tuple(dict.fromkeys(due.rule for moment in timeline.moments for due in moment.due)),
             obligations=(claim.label,),
             witness=Witness(moment.events, moment.conditions),
             timeline=timeline,
-            help="add a rule that prevents it, or an exception to the rule that causes it",
+            help=sentence("add a rule that prevents it, or an exception to the rule that causes it"),
         )
 
     yield from ask_each(((quoted(claim.label), claim) for claim in claims(index.ruleset, "concern")), of)
@@ -55,14 +56,14 @@ def _purposes(index: RulesetIndex) -> Iterator[Finding]:
             return
         blocking = in_words(traces, answer.matter)
         yield PURPOSE.finding(
-            f"the purpose {quoted(claim.label)} is impossible if every rule is followed",
+            sentence("the purpose {claim} is impossible if every rule is followed", claim=quoted(claim.label)),
             claim.label_span,
             rules=rules_in(traces, answer.matter),
             obligations=(claim.label,),
-            note=f"{listed(blocking)} {'blocks' if len(blocking) == 1 else 'block'} it"
+            note=plural(len(blocking), "{rules} blocks it", "{rules} block it", rules=listed(blocking))
             if blocking
-            else "it contradicts itself",
-            help="add an exception for this case to the rules that block it, or remove the purpose",
+            else sentence("it contradicts itself"),
+            help=sentence("add an exception for this case to the rules that block it, or remove the purpose"),
         )
 
     yield from ask_each(((quoted(claim.label), claim) for claim in claims(index.ruleset, "purpose")), of)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from sleec_runtime.model import Formula, Obligation, Rule, Span, literals
 from sleec_verify.checks.base import Check, FindingKind, clause_at
-from sleec_verify.checks.conflict_wording import exclusion, help_for, sides_in_words, subject
+from sleec_verify.checks.conflict_wording import both_sides, exclusion, help_for, reason, sides_in_words, subject
 from sleec_verify.checks.questions import ask_each
 from sleec_verify.checks.relevant_rules import kind_of, relation_in_words
 from sleec_verify.checks.untimed_conflicts import Cause, Enough, causes
@@ -21,8 +21,9 @@ from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
 from sleec_verify.results.conflict_freedom import FreeComponent
 from sleec_verify.results.finding import ClauseRef, Finding, Witness
 from sleec_verify.results.found_trace import FoundTrace
-from sleec_verify.results.phrases import clause_name, listed, quoted
 from sleec_verify.traces.partition import partition_of, without
+from sleec_verify.wording.phrases import clause_name, listed, quoted
+from sleec_verify.wording.sentence import joined, plural, sentence
 
 if TYPE_CHECKING:
     from sleec_verify.encoding.relations import Relation
@@ -71,7 +72,12 @@ def conflicts_over_time(index: RulesetIndex, component: TraceIndex) -> Iterator[
 
 def _refer_to_others(incomplete: Sequence[str]) -> None:
     if incomplete:
-        raise Enough(f"there may be further conflicts of {listed(map(quoted, incomplete))} with more rules")
+        raise Enough(
+            sentence(
+                "there may be further conflicts of {incomplete} with more rules",
+                incomplete=listed(map(quoted, incomplete)),
+            )
+        )
 
 
 def _of_situations(index: RulesetIndex) -> Iterator[Finding]:
@@ -153,9 +159,9 @@ def _finding(index: RulesetIndex, cause: Cause, shown: list[tuple[InconsistentSe
     origins = [origin for clash, _ in shown for origin in clash.origins]
     return _conflict(
         clauses,
-        "; ".join(dict.fromkeys(_reason(index, clash) for clash, _ in shown)),
+        joined("; ", dict.fromkeys(reason(index.ruleset, clash) for clash, _ in shown)),
         sorted({literal.name for clash, _ in shown for literal in clash.literals}),
-        [(origin.span, "the constraint") for origin in origins],
+        [(origin.span, sentence("the constraint")) for origin in origins],
         min((witness for _, witness in shown), key=lambda w: len(w.triggers) + len(w.conditions)),
     )
 
@@ -189,7 +195,7 @@ def _of_trace(traces: TraceIndex, conflict: Conflict) -> Finding:
         clauses,
         _reason_of_trace(traces, relations, required, forbidden, at_odds, ends_early),
         sorted(at_odds),
-        [(relation.span, f"the {kind_of(relation)}") for relation in relations],
+        [(relation.span, sentence("the {kind}", kind=kind_of(relation))) for relation in relations],
         Witness(tuple(sorted(now.events)), now.conditions),
         path=_path(traces, conflict),
         timeline=None if is_instant else timeline_of(traces, [*conflict.history, now], len(conflict.history), labels),
@@ -236,13 +242,23 @@ def _reason_of_trace(
         return exclusion(due, [relation_in_words(traces.ruleset, relation) for relation in relations])
     names = sorted(at_odds & forbidden & required)
     if names:
-        return f"{listed(map(quoted, names))} {'is' if len(names) == 1 else 'are'} both required and forbidden"
+        return both_sides(names)
     names = sorted(at_odds & forbidden)
     if names:
-        return f"{listed(map(quoted, names))} {'occurs but is' if len(names) == 1 else 'occur but are'} forbidden"
+        return plural(
+            len(names),
+            "{names} occurs but is forbidden",
+            "{names} occur but are forbidden",
+            names=listed(map(quoted, names)),
+        )
     if ends_early:
-        return f"{listed(map(quoted, sorted(required)))} is required in a window that ends before it begins"
-    return f"{listed(map(quoted, sorted(required)))} would have to occur again and again without end"
+        return sentence(
+            "{required} is required in a window that ends before it begins",
+            required=listed(map(quoted, sorted(required))),
+        )
+    return sentence(
+        "{required} would have to occur again and again without end", required=listed(map(quoted, sorted(required)))
+    )
 
 
 def _path(traces: TraceIndex, conflict: Conflict) -> str:
@@ -250,12 +266,12 @@ def _path(traces: TraceIndex, conflict: Conflict) -> str:
     rules = [traces.ruleset.by_label[label] for label in conflict.rules]
     occurred = {event for moment in (*conflict.history, conflict.now) for event in moment.events}
     steps = [
-        f"{quoted(rule.trigger)} triggers rule {quoted(rule.label)}"
+        sentence("{trigger} triggers rule {rule}", trigger=quoted(rule.trigger), rule=quoted(rule.label))
         for rule in rules
         if rule.trigger not in occurred
         and any(o.name == rule.trigger and not o.negated for other in rules for o in responses_of(other))
     ]
-    return f" because {listed(steps)}" if steps else ""
+    return sentence(" because {steps}", steps=listed(steps)) if steps else ""
 
 
 def _conflict(
@@ -269,29 +285,24 @@ def _conflict(
 ) -> Finding:
     spans = [*((one.span, one.name) for one in clauses), *origins]
     obliging = [one for one in clauses if one.number >= 0 and one.obligations]
-    notes = [f"{one.name}: {quoted(' AND '.join(map(str, one.obligations)))}" for one in obliging]
+    notes = [
+        sentence(
+            "{clause}: {obligations}", clause=one.name, obligations=quoted(" AND ".join(map(str, one.obligations)))
+        )
+        for one in obliging
+    ]
     rules = list(dict.fromkeys(one.rule.label for one in clauses))
     return CONFLICT.finding(
-        f"{subject([one.name for one in clauses])}{path}: {reason}",
+        sentence("{subject}{path}: {reason}", subject=subject([one.name for one in clauses]), path=path, reason=reason),
         spans[0][0],
         rules=tuple(rules),
         clauses=tuple(ClauseRef(one.rule.label, one.number) for one in clauses if one.number >= 0),
         obligations=tuple(at_odds),
         witness=witness,
-        note="; ".join(notes) or None,
+        note=joined("; ", notes) or None,
         help=help_for(rules),
         related=tuple(spans[1:]),
         timeline=timeline,
-    )
-
-
-def _reason(index: RulesetIndex, clash: InconsistentSet) -> str:
-    positive = sorted(o.name for o in clash.literals if not o.negated)
-    negative = sorted(o.name for o in clash.literals if o.negated)
-    if not clash.origins:
-        return f"{quoted(positive[0])} is both required and forbidden"
-    return exclusion(
-        sides_in_words(positive, negative), [relation_in_words(index.ruleset, one) for one in clash.origins]
     )
 
 

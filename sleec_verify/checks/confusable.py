@@ -12,7 +12,8 @@ from sleec_runtime.model import Ruleset, Span
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import quoted
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import sentence
 
 _DIRECTION = re.compile("[\u202a-\u202e\u2066-\u2069]")
 
@@ -70,17 +71,23 @@ def _looks_like(ruleset: Ruleset, words: dict[str, Span], word: str, other: str,
 
     span, place = words[word], words.get(other)
     one, two = _beyond_ascii(word), _beyond_ascii(other)
-    what = "the keyword " if is_keyword else ""
+    characters = described(c for c in word + other if c in one ^ two)
     return CONFUSABLE.finding(
-        f"{quoted(word)} looks like {what}{quoted(other)}, but it is a different word: "
-        f"{'it' if one - two else 'the other word'} contains {described(c for c in word + other if c in one ^ two)}",
+        sentence(
+            "{word} looks like {other}, but it is a different word: {contains}",
+            word=quoted(word),
+            other=sentence("the keyword {word}", word=quoted(other)) if is_keyword else quoted(other),
+            contains=sentence("it contains {characters}", characters=characters)
+            if one - two
+            else sentence("the other word contains {characters}", characters=characters),
+        ),
         span,
         rules=_rules_at(ruleset, span),
         note=None
         if is_keyword
-        else "rules about one word do not apply to the other, so no conflict between them is found",
-        help=f"if you mean the same word, write {quoted(other)}",
-        related=() if place is None else ((place, "the similar word"),),
+        else sentence("rules about one word do not apply to the other, so no conflict between them is found"),
+        help=sentence("if you mean the same word, write {other}", other=quoted(other)),
+        related=() if place is None else ((place, sentence("the similar word")),),
     )
 
 
@@ -93,19 +100,21 @@ def _odd(ruleset: Ruleset, words: dict[str, Span]) -> Iterator[Finding]:
             continue
         if odd := odd_characters(word):
             yield CONFUSABLE.finding(
-                f"{quoted(word)} contains {described(odd)}",
+                sentence("{word} contains {characters}", word=quoted(word), characters=described(odd)),
                 span,
                 kind=2,
                 rules=_rules_at(ruleset, span),
-                help=f"write {quoted(plain(word))}",
+                help=sentence("write {plain}", plain=quoted(plain(word))),
             )
         elif foreign := foreign_letters(word):
             yield CONFUSABLE.finding(
-                f"{quoted(word)} mixes scripts: it contains {described(foreign)}",
+                sentence(
+                    "{word} mixes scripts: it contains {characters}", word=quoted(word), characters=described(foreign)
+                ),
                 span,
                 kind=1,
                 rules=_rules_at(ruleset, span),
-                help="use the letters of one script",
+                help=sentence("use the letters of one script"),
             )
 
 
@@ -120,12 +129,12 @@ def _directions(ruleset: Ruleset) -> Iterator[Finding]:
     for places in by_line.values():
         span = Span(places[0], places[-1] + 1)
         yield CONFUSABLE.finding(
-            f"this line contains {described(source.text[at] for at in places)}",
+            sentence("this line contains {characters}", characters=described(source.text[at] for at in places)),
             span,
             kind=3,
             rules=_rules_at(ruleset, span),
-            note="an editor may show the characters of this line in a different order",
-            help="remove these characters",
+            note=sentence("an editor may show the characters of this line in a different order"),
+            help=sentence("remove these characters"),
         )
 
 

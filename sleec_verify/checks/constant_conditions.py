@@ -26,6 +26,7 @@ from sleec_verify.checks.questions import ask_each
 from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
+from sleec_verify.wording.sentence import sentence
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Claim
@@ -46,7 +47,10 @@ def _constant(index: RulesetIndex) -> Iterator[Finding]:
     always true. A model is a situation in which it is not."""
     changing: set[Formula] = set()
     source = index.ruleset.source
-    places = ((f"line {source.place(place.condition.span).line}", place) for place in _places(index.ruleset))
+    places = (
+        (sentence("line {line}", line=source.place(place.condition.span).line), place)
+        for place in _places(index.ruleset)
+    )
     yield from ask_each(places, lambda place: _in_condition(index, place, changing))
 
 
@@ -67,14 +71,16 @@ def _in_condition(index: RulesetIndex, place: _Place, changing: set[Formula]) ->
             continue
         if _is_defect(part, index.ruleset):
             continue
-        what = "this condition" if part is condition else "this part of the condition"
+        what = sentence("this condition") if part is condition else sentence("this part of the condition")
         whole, value = _with_it(part, constant[id(part)], around)
         yield CONSTANT_CONDITION.finding(
-            f"{what} is always {_word(constant[id(part)])}",
+            sentence("{what} is always {value}", what=what, value=_word(constant[id(part)])),
             part.span,
             rules=place.labels,
             help=_advice(place, part, whole, value, dsl=index.ruleset.syntax == "dsl"),
-            related=((whole.span, f"so this whole part is always {_word(value)}"),) if whole is not part else (),
+            related=((whole.span, sentence("so this whole part is always {value}", value=_word(value))),)
+            if whole is not part
+            else (),
         )
     if not constant:
         changing.add(condition)
@@ -93,7 +99,7 @@ def _with_it(part: Formula, value: bool, around: dict[int, Formula]) -> tuple[Fo
 
 
 def _word(value: bool) -> str:
-    return "true" if value else "false"
+    return sentence("true") if value else sentence("false")
 
 
 def _advice(place: _Place, part: Formula, whole: Formula, value: bool, dsl: bool) -> str:
@@ -102,9 +108,13 @@ def _advice(place: _Place, part: Formula, whole: Formula, value: bool, dsl: bool
         assert advice is not None, "that it is never true is said by other checks"
         return advice
     if whole is part:
-        return "correct it, or remove it"
+        return sentence("correct it, or remove it")
     name = "NOT" if isinstance(whole, Not) else "AND" if isinstance(whole, And) else "OR"
-    return f"correct it, or remove the whole {name.lower() if dsl else name}, which is always {_word(value)}"
+    return sentence(
+        "correct it, or remove the whole {operator}, which is always {value}",
+        operator=name.lower() if dsl else name,
+        value=_word(value),
+    )
 
 
 def _places(ruleset: Ruleset) -> Iterator[_Place]:
@@ -115,10 +125,12 @@ def _places(ruleset: Ruleset) -> Iterator[_Place]:
             yield _Place(
                 rule.guard,
                 labels,
-                "correct it, or remove the whole condition after the trigger: the rule means the same without it",
+                sentence(
+                    "correct it, or remove the whole condition after the trigger: the rule means the same without it"
+                ),
             )
         yield from _in_clause(rule.default, ruleset.reading, labels)
-        yield from _in_chain(rule.hedges, ruleset.reading, labels, "the default response")
+        yield from _in_chain(rule.hedges, ruleset.reading, labels, sentence("the default response"))
     if ruleset.is_timed:
         yield from _beside_rules(ruleset)
 
@@ -131,17 +143,18 @@ def _beside_rules(ruleset: Ruleset) -> Iterator[_Place]:
         if isinstance(statement, Claim):
             yield from _in_claim(statement, ruleset.reading)
         elif isinstance(statement, RELATIONS):
-            advice = "correct it, or check whether you need the relation"
+            advice = sentence("correct it, or check whether you need the relation")
             yield from (_Place(formula, (), advice, advice) for formula in formulas_of_relation(statement))
 
 
 def _in_claim(claim: Claim, reading: Reading) -> Iterator[_Place]:
     if claim.condition is not None:
+        words = sentence("the concern") if claim.kind == "concern" else sentence("the purpose")
         yield _Place(
             claim.condition,
             (),
-            f"correct it, or remove the whole condition: the {claim.kind} means the same without it",
-            f"correct it: at present, the {claim.kind} can never happen",
+            sentence("correct it, or remove the whole condition: {claim} means the same without it", claim=words),
+            sentence("correct it: at present, {claim} can never happen", claim=words),
         )
     for response in claim.responses:
         yield from _in_clause(response, reading, ())
@@ -151,7 +164,7 @@ def _in_claim(claim: Claim, reading: Reading) -> Iterator[_Place]:
 
 def _in_clause(clause: Clause, reading: Reading, labels: tuple[str, ...]) -> Iterator[_Place]:
     """The conditions in the chain that is nested in a clause, and in the alternatives of its responses."""
-    yield from _in_chain(clause.hedges, reading, labels, "the response before the first UNLESS")
+    yield from _in_chain(clause.hedges, reading, labels, sentence("the response before the first UNLESS"))
     for obligation in clause.obligations:
         for alternative in obligation.timing.alternatives() if obligation.timing is not None else ():
             yield from _in_clause(alternative, reading, labels)
@@ -165,7 +178,11 @@ def _in_chain(hedges: Sequence[Clause], reading: Reading, labels: tuple[str, ...
             if not labels:
                 # The cascade stops at it, so no later hedge decides.
                 later = reading == "cascade" and position + 1 < len(hedges)
-                if_false = f"correct it, or remove the exception{' and those after it' if later else ''}"
+                if_false = (
+                    sentence("correct it, or remove the exception and those after it")
+                    if later
+                    else sentence("correct it, or remove the exception")
+                )
             yield _Place(hedge.condition, labels, _always_holds(hedges, position, reading, first), if_false)
         yield from _in_clause(hedge, reading, labels)
 
@@ -175,18 +192,30 @@ def _always_holds(hedges: Sequence[Clause], position: int, reading: Reading, fir
     would decide."""
     alone = position == 0 or reading == "priority"
     last = position + 1 == len(hedges)
-    instead = first if alone else "that of the exception before it"
+    instead = first if alone else sentence("that of the exception before it")
     if position == 0:
-        never, gone = f"{first} never applies", "the exception"
+        never, gone = sentence("{first} never applies", first=first), sentence("the exception")
     elif reading == "cascade":
-        never, gone = "the exception before it never applies", "this exception"
+        never, gone = sentence("the exception before it never applies"), sentence("this exception")
     else:
-        never, gone = f"neither {first} nor an exception before it ever applies", "the exception and those before it"
-    holds = "the exception always applies" if alone and last else "the condition of the exception is always true"
-    said = f"correct it: at present, {holds}, so {never}"
+        never, gone = (
+            sentence("neither {first} nor an exception before it ever applies", first=first),
+            sentence("the exception and those before it"),
+        )
+    holds = (
+        sentence("the exception always applies")
+        if alone and last
+        else sentence("the condition of the exception is always true")
+    )
+    said = sentence("correct it: at present, {holds}, so {never}", holds=holds, never=never)
     if not hedges[position].obligations:
         return said
-    return f"{said}; if you mean that, replace {instead} by its response, and remove {gone}"
+    return sentence(
+        "{said}; if you mean that, replace {instead} by its response, and remove {gone}",
+        said=said,
+        instead=instead,
+        gone=gone,
+    )
 
 
 def _parts(formula: Formula) -> Iterator[Formula]:

@@ -11,8 +11,9 @@ from sleec_verify.checks.questions import ask_both_parts, ask_each, ask_each_sha
 from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding
-from sleec_verify.results.phrases import clause_name, exception, quoted
 from sleec_verify.traces.partition import without
+from sleec_verify.wording.phrases import clause_name, exception, quoted
+from sleec_verify.wording.sentence import sentence
 
 if TYPE_CHECKING:
     from sleec_verify.traces.index import TraceIndex
@@ -28,10 +29,10 @@ def _dead_rules(index: RulesetIndex) -> Iterator[Finding]:
             guards = question.guards(position)
             if not question.ask(question.encoder.any_of(guards)):
                 yield DEAD_RULE.finding(
-                    f"rule {quoted(rule.label)} never applies",
+                    sentence("rule {rule} never applies", rule=quoted(rule.label)),
                     rule.heading_span,
                     rules=(rule.label,),
-                    help="check its condition and the assumptions, or remove it",
+                    help=sentence("check its condition and the assumptions, or remove it"),
                 )
 
     yield from ask_each_shape(index, of)
@@ -64,11 +65,11 @@ def _hedges_in_traces(traces: TraceIndex, dead: Collection[tuple[ClauseRef, ...]
         rule, number = place
         if (ClauseRef(rule.label, number),) not in dead and find_decision(traces, rule, number).trace is None:
             yield DEAD_HEDGE.finding(
-                f"{clause_name(rule, number)} never applies",
+                sentence("{clause} never applies", clause=clause_name(rule, number)),
                 list(rule.clauses())[number].span,
                 rules=(rule.label,),
                 clauses=(ClauseRef(rule.label, number),),
-                help="check its condition and the relations, or remove it",
+                help=sentence("check its condition and the relations, or remove it"),
             )
 
     yield from ask_each(places_of_hedges(traces.rules), of)
@@ -98,23 +99,29 @@ def _hedges_in_situations(index: RulesetIndex) -> Iterator[Finding]:
             for number, guard in enumerate(guards):
                 if number and not question.ask(guard):
                     yield DEAD_HEDGE.finding(
-                        f"{clause_name(rule, number)} never applies",
+                        sentence("{clause} never applies", clause=clause_name(rule, number)),
                         clauses[number].span,
                         rules=(rule.label,),
                         clauses=(ClauseRef(rule.label, number),),
                         note=_why(index, position, number),
-                        help="correct its condition, or remove it",
+                        help=sentence("correct its condition, or remove it"),
                     )
             for number, hedge, guard in nested:
                 # If the clause itself never decides, this is reported already.
                 if question.ask(guards[number]) and not question.ask(guard):
                     yield DEAD_HEDGE.finding(
-                        f"in {clause_name(rule, number)}, {exception(hedge)} inside OTHERWISE or ELSE never applies",
+                        sentence(
+                            "in {clause}, {exception} inside OTHERWISE or ELSE never applies",
+                            clause=clause_name(rule, number),
+                            exception=exception(hedge),
+                        ),
                         hedge.span,
                         rules=(rule.label,),
                         clauses=(ClauseRef(rule.label, number),),
-                        note="the conditions inside OTHERWISE and ELSE are evaluated when the rule is triggered",
-                        help="correct its condition, or remove it",
+                        note=sentence(
+                            "the conditions inside OTHERWISE and ELSE are evaluated when the rule is triggered"
+                        ),
+                        help=sentence("correct its condition, or remove it"),
                     )
 
     yield from ask_each_shape(index, of)
@@ -160,13 +167,13 @@ def _why(index: RulesetIndex, position: int, number: int) -> str:
     with Question(index) as question:
         triggered = question.encoder.any_of(question.guards(position))
         if not question.ask(triggered):
-            return "its rule never applies"
+            return sentence("its rule never applies")
     with Question(index) as question:
         if not question.ask(question.encoder.literal(condition)):
-            return "its condition can never be true"
+            return sentence("its condition can never be true")
     if len(index.clauses[position]) == 2:
-        return "its condition can be true, but never when the rule is triggered"
-    return "its condition can be true, but never when the rule is triggered and no other exception applies"
+        return sentence("its condition can be true, but never when the rule is triggered")
+    return sentence("its condition can be true, but never when the rule is triggered and no other exception applies")
 
 
 _EXAMPLE_SCALE = "MEASURE RiskLevel: r_low < r_moderate < r_severe\n"

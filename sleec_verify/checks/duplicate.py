@@ -8,7 +8,8 @@ from sleec_runtime.model import Rule
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import quoted
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import sentence
 
 
 def _duplicates(index: RulesetIndex) -> Iterator[Finding]:
@@ -21,11 +22,11 @@ def _duplicates(index: RulesetIndex) -> Iterator[Finding]:
             continue
         where = first.heading_span
         yield DUPLICATE_RULE.finding(
-            f"rule {quoted(rule.label)} says the same as rule {quoted(first.label)}",
+            sentence("rule {rule} says the same as rule {first}", rule=quoted(rule.label), first=quoted(first.label)),
             rule.heading_span,
             rules=(rule.label, first.label),
-            help="remove one of them, or correct the one that should say something else",
-            related=((where, "the same rule"),),
+            help=sentence("remove one of them, or correct the one that should say something else"),
+            related=((where, sentence("the same rule")),),
         )
 
 

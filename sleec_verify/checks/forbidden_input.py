@@ -10,7 +10,8 @@ from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.encoding.trace_scope import responses_of, speaks_of_traces
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding
-from sleec_verify.results.phrases import clause_name, listed, quoted
+from sleec_verify.wording.phrases import clause_name, listed, quoted
+from sleec_verify.wording.sentence import sentence
 
 
 def _forbidden_inputs(index: RulesetIndex) -> Iterator[Finding]:
@@ -36,14 +37,18 @@ def _is_the_robots(statement: Statement) -> TypeGuard[Declaration]:
 
 def _finding(rule: Rule, number: int, event: str, triggered: list[str]) -> Finding:
     return FORBIDDEN_INPUT.finding(
-        f"{clause_name(rule, number)} forbids {quoted(event)}, which triggers {listed(map(quoted, triggered))} "
-        "and which no rule requires",
+        sentence(
+            "{clause} forbids {event}, which triggers {triggered} and which no rule requires",
+            clause=clause_name(rule, number),
+            event=quoted(event),
+            triggered=listed(map(quoted, triggered)),
+        ),
         list(rule.clauses())[number].span,
         rules=(rule.label, *triggered),
         clauses=(ClauseRef(rule.label, number),),
         obligations=(event,),
-        note="such an event comes from the environment, and the robot cannot prevent it",
-        help="forbid an action of the robot instead, or state with ASSUME that the event does not occur then",
+        note=sentence("such an event comes from the environment, and the robot cannot prevent it"),
+        help=sentence("forbid an action of the robot instead, or state with ASSUME that the event does not occur then"),
     )
 
 

@@ -21,6 +21,7 @@ from sleec_verify.encoding.name_uses import mentions, names_used
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
 from sleec_verify.results.suppressions import suppressions
+from sleec_verify.wording.sentence import sentence
 
 
 def _misread(index: RulesetIndex) -> Iterator[Finding]:
@@ -46,7 +47,7 @@ def _findings(ruleset: Ruleset, found: list[Misreading]) -> Iterator[Finding]:
             kind=one.kind,
             rules=tuple(ruleset.rules[at].label for at in around if at >= 0),
             help=one.help,
-            related=tuple((span, "the other name") for span in other),
+            related=tuple((span, sentence("the other name")) for span in other),
         )
 
 
@@ -97,9 +98,10 @@ def misreadings(ruleset: Ruleset, used: Mapping[DeclaredKind, Collection[str]]) 
 
 
 def _if_meant(code: str) -> str:
-    return (
-        "If the name is meant as it is written, declare it, or allow it with a comment that gives a reason: "
-        f"// sleec: allow {code} because REASON."
+    return sentence(
+        "If the name is meant as it is written, declare it, or allow it with a comment that "
+        "gives a reason: // sleec: allow {code} because REASON.",
+        code=code,
     )
 
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, TypeVar
 from sleec_verify.encoding.budget import Undecided, begin, share
 from sleec_verify.query.rule_shape import shape_at
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import quoted
 from sleec_verify.traces.partition import partition_of
+from sleec_verify.wording.phrases import quoted
 
 if TYPE_CHECKING:
     from sleec_verify.query.ruleset_index import RulesetIndex

@@ -15,7 +15,8 @@ from sleec_verify.query.rule_shape import Shape, shape_at
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.query.witness import smallest_situation
 from sleec_verify.results.finding import ClauseRef, Finding, Witness
-from sleec_verify.results.phrases import exception, quoted
+from sleec_verify.wording.phrases import exception, quoted
+from sleec_verify.wording.sentence import joined, sentence
 
 LONG = 30
 """The longest chain of hedges that is examined for all pairs of clauses. Longer ones are one question, and get a
@@ -141,18 +142,22 @@ def _finding(index: RulesetIndex, position: int, parted: _Parted) -> Finding:
     rule, reading, (witness, deciding) = index.rules[position], index.ruleset.reading, parted
     clauses = index.clauses[position]
     said = [
-        f"with READING {r}, {exception(clauses[deciding[r]]) if deciding[r] else 'no exception'} applies: "
-        f"{_response(clauses[deciding[r]], index.ruleset.syntax == 'dsl')}"
+        sentence(
+            "with READING {reading}, {exception} applies: {response}",
+            reading=r,
+            exception=exception(clauses[deciding[r]]) if deciding[r] else sentence("no exception"),
+            response=_response(clauses[deciding[r]], index.ruleset.syntax == "dsl"),
+        )
         for r in (reading, OTHER[reading])
     ]
     return READING.finding(
-        f"what rule {quoted(rule.label)} requires depends on how its exceptions are read",
+        sentence("what rule {rule} requires depends on how its exceptions are read", rule=quoted(rule.label)),
         rule.heading_span,
         rules=(rule.label,),
         clauses=tuple(ClauseRef(rule.label, n) for n in dict.fromkeys(deciding.values())),
         obligations=tuple(sorted({o.name for n in deciding.values() for o in clauses[n].obligations})),
         witness=witness,
-        note=f"if nothing else holds: {'; '.join(said)}",
+        note=sentence("if nothing else holds: {said}", said=joined("; ", said)),
         help=_help(index.ruleset),
     )
 
@@ -160,13 +165,14 @@ def _finding(index: RulesetIndex, position: int, parted: _Parted) -> Finding:
 def _help(ruleset: Ruleset) -> str:
     """What to write so that the check has nothing to report. A DSL text cannot state its reading."""
     if ruleset.syntax == "dsl":
-        return (
-            "if you mean priority, add the conditions of all later exceptions to each exception with `or`; "
-            "if you mean cascade, add those of all earlier exceptions with `and`"
+        return sentence(
+            "if you mean priority, add the conditions of all later exceptions to each exception with "
+            "`or`; if you mean cascade, add those of all earlier exceptions with `and`"
         )
-    return (
-        f"at the top of the text, write READING {ruleset.reading} to keep this reading, "
-        f"or READING {OTHER[ruleset.reading]} for the other one"
+    return sentence(
+        "at the top of the text, write READING {reading} to keep this reading, or READING {other} for the other one",
+        reading=ruleset.reading,
+        other=OTHER[ruleset.reading],
     )
 
 
@@ -184,7 +190,7 @@ def _response(clause: Clause, dsl: bool) -> str:
     from sleec_runtime.model import obligation_text
 
     if not clause.obligations:
-        return "nothing is required"
+        return sentence("nothing is required")
     words = quoted(f" {'and' if dsl else 'AND'} ".join(map(obligation_text, clause.obligations)))
     return re.sub(r"\bNOT ", "not ", words) if dsl else words
 

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding, Witness
-from sleec_verify.results.phrases import listed, quoted
 from sleec_verify.traces.index import trace_index_of
+from sleec_verify.wording.phrases import listed, quoted
+from sleec_verify.wording.sentence import plural, sentence
 
 if TYPE_CHECKING:
     from sleec_verify.games.realizability import Loss
@@ -43,17 +44,25 @@ def _losses(index: RulesetIndex, steps: int) -> Iterator[Finding]:
 def _finding(loss: Loss) -> Finding:
     act = loss.strategy.act
     labels = [rule.label for rule in loss.rules]
-    acts = "one act" if loss.steps == 1 else f"{loss.steps} acts"
     places = [rule.heading_span for rule in loss.rules]
-    what = f"rule{'s' if len(labels) > 1 else ''} {listed(map(quoted, labels))}" if labels else "the relations"
+    what = (
+        plural(len(labels), "rule {rules}", "rules {rules}", rules=listed(map(quoted, labels)))
+        if labels
+        else sentence("the relations")
+    )
     return REALIZABILITY.finding(
-        f"{what} cannot always be followed: {acts} of the environment can make it impossible",
+        plural(
+            loss.steps,
+            "{rules} cannot always be followed: one act of the environment can make it impossible",
+            "{rules} cannot always be followed: {number} acts of the environment can make it impossible",
+            rules=what,
+        ),
         places[0] if places else loss.place,
         rules=tuple(labels),
         witness=Witness(act.events, act.conditions),
         strategy=loss.strategy,
-        help="choose which rule wins, and add an UNLESS to the other; or give the robot more time",
-        related=tuple((place, "together with this rule") for place in places[1:]),
+        help=sentence("choose which rule wins, and add an UNLESS to the other; or give the robot more time"),
+        related=tuple((place, sentence("together with this rule")) for place in places[1:]),
     )
 
 

@@ -16,7 +16,8 @@ from sleec_verify.query.cone import rules_of_same_obligation
 from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding
-from sleec_verify.results.phrases import clause_name, listed, quoted
+from sleec_verify.wording.phrases import clause_name, listed, quoted
+from sleec_verify.wording.sentence import plural, sentence
 
 if TYPE_CHECKING:
     from sleec_verify.traces.index import TraceIndex
@@ -38,8 +39,13 @@ def with_others(findings: Iterator[Finding]) -> Iterator[Finding]:
     for finding in found:
         others = [label for label in finding.rules[1:] if label in can_go]
         named = listed(map(quoted, others)) if others else ""
-        remove = f"remove it, and check again before you also remove {named};" if others else "remove it,"
-        yield replace(finding, help=f"{remove} or keep it and say why in a comment")
+        advice = sentence("remove it, or keep it and say why in a comment")
+        if others:
+            advice = sentence(
+                "remove it, and check again before you also remove {rules}; or keep it and say why in a comment",
+                rules=named,
+            )
+        yield replace(finding, help=advice)
     if why is not None:
         raise why
 
@@ -59,10 +65,14 @@ def _rules_in_traces(traces: TraceIndex) -> Iterator[Finding]:
             return
         others = in_words(traces, answer.matter)
         yield REDUNDANT_RULE.finding(
-            f"rule {quoted(rule.label)} can be removed: the rules require and allow the same without it",
+            sentence(
+                "rule {rule} can be removed: the rules require and allow the same without it", rule=quoted(rule.label)
+            ),
             rule.heading_span,
             rules=(rule.label, *rules_in(traces, answer.matter)),
-            note=f"a robot that follows {listed(others)} follows it, too" if others else "nothing can break it",
+            note=sentence("a robot that follows {rules} follows it, too", rules=listed(others))
+            if others
+            else sentence("nothing can break it"),
         )
 
     yield from ask_each(((quoted(rule.label), rule) for rule in traces.rules), of)
@@ -79,12 +89,16 @@ def _rules_in_situations(index: RulesetIndex) -> Iterator[Finding]:
         needed = _needed(index, position, others)
         cover = [index.rules[other].label for other in needed]
         yield REDUNDANT_RULE.finding(
-            f"rule {quoted(rule.label)} can be removed: every situation requires the same without it",
+            sentence(
+                "rule {rule} can be removed: every situation requires the same without it", rule=quoted(rule.label)
+            ),
             rule.heading_span,
             rules=(rule.label, *cover),
-            note=f"{listed(map(quoted, cover))} {'requires' if len(cover) == 1 else 'require'} the same"
+            note=plural(
+                len(cover), "{rules} requires the same", "{rules} require the same", rules=listed(map(quoted, cover))
+            )
             if cover
-            else "it requires nothing in any situation",
+            else sentence("it requires nothing in any situation"),
         )
 
     yield from ask_each_shape(index, of, lambda position: not rules_of_same_obligation(index, position))
@@ -149,7 +163,10 @@ def _hedges_in_traces(traces: TraceIndex) -> Iterator[Finding]:
             return
         hedge = list(rule.clauses())[number]
         yield REDUNDANT_HEDGE.finding(
-            f"{clause_name(rule, number)} can be removed: the rules require and allow the same without it",
+            sentence(
+                "{clause} can be removed: the rules require and allow the same without it",
+                clause=clause_name(rule, number),
+            ),
             hedge.span,
             rules=(rule.label,),
             clauses=(ClauseRef(rule.label, number),),
@@ -175,7 +192,10 @@ def _hedges_in_situations(index: RulesetIndex) -> Iterator[Finding]:
                 if question.ask(_differs(question, with_it, without, question.due(others, about))):
                     continue
             yield REDUNDANT_HEDGE.finding(
-                f"{clause_name(rule, number)} can be removed: every situation requires the same without it",
+                sentence(
+                    "{clause} can be removed: every situation requires the same without it",
+                    clause=clause_name(rule, number),
+                ),
                 clauses[number].span,
                 rules=(rule.label,),
                 clauses=(ClauseRef(rule.label, number),),
@@ -188,8 +208,8 @@ def _hedges_in_situations(index: RulesetIndex) -> Iterator[Finding]:
 def what_to_do(hedge: Clause) -> str:
     """Advice for a hedge that can be removed."""
     if not hedge.obligations:
-        return "it has no response: add the response that you meant, or remove it and check again"
-    return "check whether its response is the one that you meant, or remove it and check again"
+        return sentence("it has no response: add the response that you meant, or remove it and check again")
+    return sentence("check whether its response is the one that you meant, or remove it and check again")
 
 
 def _not_plainly_needed(index: RulesetIndex, position: int, others: Sequence[int]) -> list[int]:

@@ -6,7 +6,8 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Assume, Exclusive, Never, Ruleset
-from sleec_verify.results.phrases import quoted
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import sentence
 
 if TYPE_CHECKING:
     from sleec_verify.encoding.relations import Relation
@@ -30,10 +31,11 @@ def rules_in(index: TraceIndex, matter: Iterable[str]) -> tuple[str, ...]:
 
 def relation_in_words(ruleset: Ruleset, relation: Relation) -> str:
     """``the EXCLUSIVE in line 1``."""
-    return f"the {kind_of(relation)} in line {ruleset.source.place(relation.span).line}"
+    line = ruleset.source.place(relation.span).line
+    return sentence("the {relation} in line {line}", relation=kind_of(relation), line=line)
 
 
 def kind_of(relation: Relation) -> str:
     """The keyword of a constraint; "relation" for any other statement."""
     kinds = {Exclusive: "EXCLUSIVE", Never: "NEVER", Assume: "ASSUME"}
-    return kinds.get(type(relation), "relation")
+    return kinds.get(type(relation)) or sentence("relation")

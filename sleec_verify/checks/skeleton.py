@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from unicodedata import decomposition, name, normalize
 
 from sleec_verify.checks.unicode_confusables import LOOKALIKES
+from sleec_verify.wording.sentence import joined, sentence
 
 _INVISIBLE = "\u034f\u115f\u1160\u3164\uffa0"
 """The invisible characters that a name may contain."""
@@ -73,5 +74,7 @@ def _script(letter: str) -> str:
 def described(characters: Iterable[str]) -> str:
     """``U+041E CYRILLIC CAPITAL LETTER O``, each once; only the first of many."""
     found = [f"U+{ord(c):04X} {name(c, '')}".rstrip() for c in dict.fromkeys(characters)]
-    more = f" and {len(found) - _MOST} more" if len(found) > _MOST else ""
-    return ", ".join(found[:_MOST]) + more
+    first = joined(", ", found[:_MOST])
+    if len(found) <= _MOST:
+        return first
+    return sentence("{names} and {number} more", names=first, number=len(found) - _MOST)

@@ -20,13 +20,14 @@ from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.encoding.name_uses import constants_used, mentions
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding
-from sleec_verify.results.phrases import clause_name, quoted
+from sleec_verify.wording.phrases import clause_name, kind_words, quoted
+from sleec_verify.wording.sentence import sentence
 
 
 def _unused(index: RulesetIndex) -> Iterator[Finding]:
     ruleset = index.ruleset
     used = index.names_used
-    constants = constants_used(ruleset)
+    constants = constants_used(ruleset) if ruleset.constants else set[str]()
     for statement in ruleset.statements:
         if isinstance(statement, Declaration):
             for name, span in zip(statement.names, statement.name_spans):
@@ -40,19 +41,22 @@ def _unused(index: RulesetIndex) -> Iterator[Finding]:
     for name, span in _constrained(index):
         if name not in obliged:
             yield UNUSED_NAME.finding(
-                f"a constraint names {quoted(name)}, but no rule requires or forbids it",
+                sentence("a constraint names {name}, but no rule requires or forbids it", name=quoted(name)),
                 span,
                 kind=1,
                 obligations=(name,),
-                help=f"check the spelling; if {quoted(name)} is a fact and not an action, declare it as a CONDITION",
+                help=sentence(
+                    "check the spelling; if {name} is a fact and not an action, declare it as a CONDITION",
+                    name=quoted(name),
+                ),
             )
 
 
 def _unused_finding(kind: str, name: str, span: Span) -> Finding:
     return UNUSED_NAME.finding(
-        f"the {kind} {quoted(name)} is declared but never used",
+        sentence("the {kind} {name} is declared but never used", kind=kind_words(kind), name=quoted(name)),
         span,
-        help="remove the declaration, or check the spelling of the name in the rules",
+        help=sentence("remove the declaration, or check the spelling of the name in the rules"),
     )
 
 
@@ -73,12 +77,12 @@ def _empty_hedges(index: RulesetIndex) -> Iterator[Finding]:
         for number, clause in enumerate(clauses):
             if number and not clause.obligations:
                 yield EMPTY_HEDGE.finding(
-                    f"{clause_name(rule, number)} does not say what to do",
+                    sentence("{clause} does not say what to do", clause=clause_name(rule, number)),
                     clause.span,
                     rules=(rule.label,),
                     clauses=(ClauseRef(rule.label, number),),
-                    note="when it applies, the rule requires nothing, not even its default response",
-                    help=f"add {then} and a response; if the rule should require nothing, keep it",
+                    note=sentence("when it applies, the rule requires nothing, not even its default response"),
+                    help=sentence("add {then} and a response; if the rule should require nothing, keep it", then=then),
                 )
 
 
@@ -89,13 +93,13 @@ def _two_kinds(index: RulesetIndex) -> Iterator[Finding]:
     for name in sorted((ruleset.triggers - merely_declared) & ruleset.obligations):
         span, rules = mentions(ruleset, name)
         yield TRIGGER_OBLIGATION.finding(
-            f"{quoted(name)} is both a trigger and an obligation",
+            sentence("{name} is both a trigger and an obligation", name=quoted(name)),
             span,
             rules=rules,
             obligations=(name,),
-            note="when the robot does it, the rules with this trigger apply; with --no-chains they do not"
+            note=sentence("when the robot does it, the rules with this trigger apply; with --no-chains they do not")
             if index.chains
-            else "when the robot does it, no rule applies because of --no-chains",
+            else sentence("when the robot does it, no rule applies because of --no-chains"),
         )
 
 
@@ -117,18 +121,20 @@ def _lower_case_keywords(index: RulesetIndex) -> Iterator[Finding]:
         if found:
             span, rules = mentions(ruleset, name)
             yield PHRASE_KEYWORD.finding(
-                f"{quoted(name)} is read as one name, including the word {quoted(found[0])}",
+                sentence(
+                    "{name} is read as one name, including the word {word}", name=quoted(name), word=quoted(found[0])
+                ),
                 span,
                 rules=rules,
-                help=f"if you mean the keyword, write {found[0].upper()}",
+                help=sentence("if you mean the keyword, write {word}", word=found[0].upper()),
             )
         elif name in ruleset.obligations and _TOLD.search(name):
             span, rules = mentions(ruleset, name)
             yield PHRASE_KEYWORD.finding(
-                f"{quoted(name)} is read as one name, including the time",
+                sentence("{name} is read as one name, including the time", name=quoted(name)),
                 span,
                 rules=rules,
-                help="if you mean a time limit, use WITHIN, for example: WITHIN 5 minutes",
+                help=sentence("if you mean a time limit, use WITHIN, for example: WITHIN 5 minutes"),
             )
 
 

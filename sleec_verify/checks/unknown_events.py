@@ -11,7 +11,8 @@ from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.encoding.name_uses import events_of_rules
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import quoted
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import sentence
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Claim
@@ -36,22 +37,30 @@ def _stray(index: RulesetIndex) -> Iterator[Finding]:
                 claimed.add(name)
                 continue
             said.add(name)
-            meant = nearest(name, sorted(known))
+            meant, label = nearest(name, sorted(known)), quoted(claim.label)
             yield STRAY_EVENT.finding(
-                f"the {claim.kind} {quoted(claim.label)} names {quoted(name)}, which no rule mentions",
+                (
+                    sentence("the concern {claim} names {name}, which no rule mentions", claim=label, name=quoted(name))
+                    if claim.kind == "concern"
+                    else sentence(
+                        "the purpose {claim} names {name}, which no rule mentions", claim=label, name=quoted(name)
+                    )
+                ),
                 span,
                 obligations=(claim.label,),
-                help=f"did you mean {quoted(meant)}?" if meant else "check whether a rule is missing, or remove it",
+                help=sentence("did you mean {meant}?", meant=quoted(meant))
+                if meant
+                else sentence("check whether a rule is missing, or remove it"),
             )
     for relation, names in relations:
         for name in sorted(names - known - claimed):
             # If two relations name the event, it can connect them.
             if related[name] == 1:
                 yield STRAY_EVENT.finding(
-                    f"a relation names {quoted(name)}, which nothing else mentions",
+                    sentence("a relation names {name}, which nothing else mentions", name=quoted(name)),
                     relation.span,
                     kind=1,
-                    help="check the spelling, and whether a rule is missing",
+                    help=sentence("check the spelling, and whether a rule is missing"),
                 )
 
 

@@ -18,7 +18,8 @@ from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
 from sleec_verify.query.witness import smallest_situation
 from sleec_verify.results.finding import Witness
-from sleec_verify.results.phrases import listed, quoted
+from sleec_verify.wording.phrases import listed, quoted
+from sleec_verify.wording.sentence import sentence
 
 MOST, MOST_PER_RULE = 1_000, 3
 """The maximal number of causes that are listed: this number, plus more for each rule. Contradicting clauses
@@ -58,7 +59,7 @@ def causes(index: RulesetIndex) -> Iterator[tuple[Cause, list[tuple[Inconsistent
         if witness is not None:
             found.setdefault(cause, []).append((clash, witness))
             if len(found) >= most:
-                raise Enough(f"only the first {most} conflicts are listed; there may be more")
+                raise Enough(sentence("only the first {most} conflicts are listed; there may be more", most=most))
         return ()
 
     try:

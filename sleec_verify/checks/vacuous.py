@@ -21,7 +21,8 @@ from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.query.witness import smallest_situation
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import listed, quoted
+from sleec_verify.wording.phrases import listed, quoted
+from sleec_verify.wording.sentence import sentence
 
 if TYPE_CHECKING:
     from sleec_verify.traces.index import TraceIndex
@@ -65,12 +66,13 @@ def _in_traces(index: RulesetIndex, traces: TraceIndex) -> Iterator[Finding]:
         matter = [key for key in answer.matter if key != rule.label]
         others = in_words(traces, matter)
         yield VACUOUS_CONFLICT.finding(
-            f"rule {quoted(rule.label)} can be triggered, but never without a conflict",
+            sentence("rule {rule} can be triggered, but never without a conflict", rule=quoted(rule.label)),
             rule.heading_span,
             rules=(rule.label, *rules_in(traces, matter)),
-            note=f"it always conflicts with {listed(others)}" if others else _alone(traces, rule),
-            help="whenever it is triggered, some rule or relation must be broken: correct it, or what it conflicts "
-            "with",
+            note=sentence("it always conflicts with {rules}", rules=listed(others)) if others else _alone(traces, rule),
+            help=sentence(
+                "whenever it is triggered, some rule or relation must be broken: correct it, or what it conflicts with"
+            ),
         )
 
     yield from ask_each(((quoted(rule.label), rule) for rule in traces.rules), of)
@@ -84,7 +86,7 @@ def _alone(traces: TraceIndex, rule: Rule) -> str:
     contradicts = False
     with as_far_as_decided():
         contradicts = not model.ask(model.instants[model.instant(model.formula.true)].event(rule.trigger))
-    return "it contradicts itself" if contradicts else "its consequences never end"
+    return sentence("it contradicts itself") if contradicts else sentence("its consequences never end")
 
 
 def _is_triggered_by_itself(index: RulesetIndex, rule: Rule) -> bool:
@@ -103,13 +105,13 @@ def _finding(index: RulesetIndex, position: int, others: Sequence[int]) -> Findi
     labels = [index.rules[other].label for other in others]
     triggered = [Atom("trigger", rule.trigger), *([] if rule.guard is None else [rule.guard])]
     return VACUOUS_CONFLICT.finding(
-        f"rule {quoted(rule.label)} can be triggered, but never without a conflict",
+        sentence("rule {rule} can be triggered, but never without a conflict", rule=quoted(rule.label)),
         rule.heading_span,
         rules=(rule.label, *labels),
         # There is a conflict for all values of the measures, but each needs a value.
         witness=smallest_situation(index, conjunction(triggered), _measures(index, [position, *others])),
-        note=f"it always conflicts with {listed(map(quoted, labels))}" if labels else None,
-        help="see the findings of the check `conflict`: whenever the rule is triggered, one of them applies",
+        note=sentence("it always conflicts with {rules}", rules=listed(map(quoted, labels))) if labels else None,
+        help=sentence("see the findings of the check `conflict`: whenever the rule is triggered, one of them applies"),
     )
 
 

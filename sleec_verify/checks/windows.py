@@ -9,7 +9,8 @@ from sleec_runtime.model import Clause, Obligation, Rule, in_text_order, literal
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import quoted
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import sentence
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Claim
@@ -21,23 +22,29 @@ def _without_length(index: RulesetIndex) -> Iterator[Finding]:
     for labels, literal in _literals(index):
         window = literal.timing.window if literal.timing is not None else None
         if window is not None and window.end is not None and window.end.seconds == 0:
-            role = "forbidden" if literal.negated else "required"
+            name = quoted(literal.name)
             yield ZERO_WINDOW.finding(
-                f"this window has no length: {quoted(literal.name)} is {role} only at the instant of the trigger",
+                sentence("this window has no length: {name} is forbidden only at the instant of the trigger", name=name)
+                if literal.negated
+                else sentence(
+                    "this window has no length: {name} is required only at the instant of the trigger", name=name
+                ),
                 window.span,
                 rules=labels,
                 obligations=(literal.name,),
-                help="write the time that you mean; if you mean immediately, remove the window"
+                help=sentence("write the time that you mean; if you mean immediately, remove the window")
                 if index.ruleset.dialect != "sleec-tk"
-                else "write the time that you mean; if you mean immediately, keep it: SLEEC-TK has no other way to "
-                "say so",
+                else sentence(
+                    "write the time that you mean; if you mean immediately, keep it: SLEEC-TK has no other "
+                    "way to say so"
+                ),
             )
     for statement in index.ruleset.statements:
         if isinstance(statement, Lasting) and statement.duration is not None and statement.duration.seconds == 0:
             yield ZERO_WINDOW.finding(
-                "this time has no length, so the relation has no effect",
+                sentence("this time has no length, so the relation has no effect"),
                 statement.duration.span,
-                help="write the time that you mean, or remove the relation",
+                help=sentence("write the time that you mean, or remove the relation"),
             )
 
 
@@ -45,12 +52,15 @@ def _bare(index: RulesetIndex) -> Iterator[Finding]:
     for labels, literal in _literals(index):
         if literal.negated and (literal.timing is None or literal.timing.window is None):
             yield BARE_PROHIBITION.finding(
-                f"{quoted(literal.name)} is forbidden without a window, so only at the instant of the trigger",
+                sentence(
+                    "{literal} is forbidden without a window, so only at the instant of the trigger",
+                    literal=quoted(literal.name),
+                ),
                 literal.span,
                 rules=labels,
                 obligations=(literal.name,),
-                note="SLEEC-TK rejects a prohibition without a window",
-                help=f"give a duration, for example: not {literal.name} within 5 minutes",
+                note=sentence("SLEEC-TK rejects a prohibition without a window"),
+                help=sentence("give a duration, for example: not {literal} within 5 minutes", literal=literal.name),
             )
 
 

@@ -14,7 +14,7 @@ from sleec_verify.changes.gate import baseline_text, findings_now, no_baseline, 
 from sleec_verify.cli import exits
 from sleec_verify.cli.output import tell
 from sleec_verify.files.placement import require_writable, write_whole
-from sleec_verify.results.phrases import counted
+from sleec_verify.wording.phrases import counted
 
 if TYPE_CHECKING:
     from sleec_verify.changes.gate import Check, Config, Key

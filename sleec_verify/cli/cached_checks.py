@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
     from sleec_verify.checks import Progress
     from sleec_verify.cli.cache.store import Cache
-    from sleec_verify.cli.scope import Scope
+    from sleec_verify.encoding.scope import Scope
     from sleec_verify.results.finding import CheckResult
 
 

@@ -10,7 +10,7 @@ import click
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.inputs import one_ruleset
 from sleec_verify.cli.output import tell, write_data
-from sleec_verify.results.phrases import counted
+from sleec_verify.wording.phrases import counted
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading, Ruleset

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from sleec_runtime.certificate.manifest import Required
     from sleec_runtime.model import Ruleset
     from sleec_verify.certificates.certification import Certificate
-    from sleec_verify.cli.scope import Scope
+    from sleec_verify.encoding.scope import Scope
     from sleec_verify.results.finding import Severity
 
 

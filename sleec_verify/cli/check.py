@@ -20,14 +20,16 @@ from sleec_verify.report import FORMATS
 from sleec_verify.report.outcome import CheckedRuleset, Outcome, UnusableInput, checked
 from sleec_verify.results.finding import Severity
 from sleec_verify.results.internal_error import InternalError, internal_errors_of
+from sleec_verify.wording.phrases import counted
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
     from sleec_verify.cli.cache.store import Cache
     from sleec_verify.cli.progress import Progress
-    from sleec_verify.cli.scope import Scope
+    from sleec_verify.encoding.scope import Scope
     from sleec_verify.repairs.numbering import FindingRepairs
     from sleec_verify.results.finding import CheckResult
+    from sleec_verify.wording.translation import Language
 
 
 @click.command(
@@ -65,6 +67,15 @@ if TYPE_CHECKING:
     help="Also write a certificate of the results to this folder.",
 )
 @options.requirements("With --certify: ")
+@click.option(
+    "--svg",
+    "pictures",
+    metavar="DIR",
+    type=options.PATH,
+    help="Also write pictures to this folder: the graph of all rules, the flow of each rule, and the timelines of "
+    "findings.",
+)
+@options.language
 @options.no_cache
 @click.option("--watch", "watched", is_flag=True, help="Check again after each change of a file, until Ctrl-C.")
 @options.timeout_of_each_run
@@ -82,6 +93,8 @@ def command(
     certificate: str | None,
     require_proved: bool,
     require_tied: bool,
+    pictures: str | None,
+    language: Language,
     no_cache: bool,
     watched: bool,
     timeout: float | None,
@@ -135,7 +148,11 @@ def command(
         with nullcontext() if timeout is None else limited(timeout):
             required = (require_proved, require_tied)
             outcomes = _outcomes(found, scope, realizable, fixes, cache, certificate, required)
-        report(outcomes, form, output)
+        report(outcomes, form, output, language)
+        if pictures is not None:
+            from sleec_verify.cli.pictures import write_pictures
+
+            tell(f"{pictures}: {counted(write_pictures(list(checked(outcomes)), pictures, language), 'picture')}")
         if form == "full" and output is None and sys.stdout.isatty():
             _hint(list(checked(outcomes)))
         if any(isinstance(outcome, UnusableInput) for outcome in outcomes):
@@ -215,7 +232,7 @@ def _repairs(
     from sleec_verify.repairs.numbering import numbered_repairs
     from sleec_verify.repairs.search import RepairSearch
 
-    search = RepairSearch(ruleset, results, scope.domain, scope.untimed, scope.chains)
+    search = RepairSearch(ruleset, results, scope)
     findings = CheckedRuleset(ruleset, tuple(results)).deduplicated
     return tuple(numbered_repairs(findings, search, progress.on(ruleset.source.path)))
 

@@ -14,13 +14,16 @@ if TYPE_CHECKING:
 
 _SUMMARIES = {
     "check": "Check the rules for contradictions and other mistakes.",
+    "serve": "Write rules and try them on a local page.",
     "resolve": "Resolve conflicts one by one, and record the decisions.",
     "entail": "Show what the rules require in a situation.",
+    "report": "Write a report for people about the rules.",
     "explain": "Explain what the rules require in a situation.",
     "compile": "Translate the rules into formulas or clauses.",
     "cases": "Choose a small set of situations for tests.",
     "certify": "Write or verify proofs of the results of check.",
     "conform": "Check a robot's code against the rules.",
+    "audit": "Check recorded missions against the rules.",
     "convert": "Translate rules into another language or reading.",
     "diff": "Compare the meaning of two versions of the rules.",
     "gate": "Decide in CI whether a change may be merged.",
@@ -52,7 +55,7 @@ class _Lazy(click.Group):
     ) -> tuple[str | None, click.Command | None, list[str]]:
         if args and args[0] not in _SUMMARIES and not args[0].startswith("-"):
             from sleec_runtime.support.suggestions import nearest
-            from sleec_verify.results.phrases import shortened
+            from sleec_verify.wording.phrases import shortened
 
             near = nearest(args[0], _SUMMARIES)
             hint = f"did you mean {near}?" if near else f"the commands are {', '.join(_SUMMARIES)}"

@@ -5,20 +5,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from sleec_verify.checks import run_checks
+from sleec_verify.checks.conflict import CONFLICT
 from sleec_verify.cli import exits
 from sleec_verify.repairs.search import RepairSearch
 from sleec_verify.results.finding import CheckResult, Finding, Unknown
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
-    from sleec_verify.cli.scope import Scope
-
-CHECK = "conflict"
-"""The check that finds conflicts. A rule that always conflicts is among their rules."""
+    from sleec_verify.encoding.scope import Scope
 
 
 class Conflicts(NamedTuple):
-    """A ruleset with the results of all its checks."""
+    """A ruleset with the results of all its checks. A rule that always conflicts is among the rules of a conflict."""
 
     ruleset: Ruleset
     results: tuple[CheckResult, ...]
@@ -43,12 +41,12 @@ class Conflicts(NamedTuple):
 
     @property
     def _result(self) -> CheckResult:
-        return next(result for result in self.results if result.name == CHECK)
+        return next(result for result in self.results if result.name == CONFLICT.name)
 
     @property
     def search(self) -> RepairSearch:
         """The search of their repairs."""
-        return RepairSearch(self.ruleset, self.results, self.scope.domain, self.scope.untimed, self.scope.chains)
+        return RepairSearch(self.ruleset, self.results, self.scope)
 
     @property
     def exit_code(self) -> int:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from sleec_verify.changes.revisions.versions import Version, Versions
     from sleec_verify.encoding.trace_scope import Untimed
     from sleec_verify.report.difference_report import DifferenceReport, RulesetDifference
+    from sleec_verify.wording.translation import Language
 
 FailOn = Literal["change", "loss", "conflict", "nothing"]
 _READINGS = click.Choice(("cascade", "priority"))
@@ -73,6 +74,7 @@ _READINGS = click.Choice(("cascade", "priority"))
     "Failed assertions always exit with 1.",
 )
 @options.output_format("full", "concise", "json")
+@options.language
 @options.timeout
 @options.max_size
 def command(
@@ -88,6 +90,7 @@ def command(
     missing_as_empty: bool,
     fail_on: FailOn,
     form: str,
+    language: Language,
 ) -> int:
     """Compare the meaning of two versions of the rules, not their text: two files, two folders, or with --git the files
     below PATH (default: .) with those of a revision.
@@ -122,7 +125,7 @@ def command(
     if asked is None:
         return exits.UNUSABLE
     report = DifferenceReport(tuple(compared), len(versions) - len(left), asked)
-    write(RENDERERS[form](report, Palette.of(sys.stdout)))
+    write(RENDERERS[form](report, Palette.of(sys.stdout, language)))
     return _exit_code(report, fail_on)
 
 

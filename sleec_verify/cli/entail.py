@@ -13,8 +13,9 @@ from sleec_verify.cli.output import write
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Ruleset
-    from sleec_verify.cli.scope import Scope
+    from sleec_verify.encoding.scope import Scope
     from sleec_verify.entailment.answer import Entailment
+    from sleec_verify.wording.translation import Language
 
 
 @click.command(
@@ -24,7 +25,10 @@ if TYPE_CHECKING:
 )
 @options.situation
 @options.output_format("full", "concise", "json")
-def command(path: str, when: tuple[str, ...], given: tuple[str, ...], scope: Scope, form: str) -> int:
+@options.language
+def command(
+    path: str, when: tuple[str, ...], given: tuple[str, ...], scope: Scope, form: str, language: Language
+) -> int:
     """Show what the rules in FILE (- for standard input) require and forbid in one situation.
 
     If the rules contradict each other there, the output is the conflict, and the exit code is 1. If a response
@@ -34,7 +38,7 @@ def command(path: str, when: tuple[str, ...], given: tuple[str, ...], scope: Sco
     from sleec_verify.report.palette import Palette
 
     ruleset, context, answer = ask(path, when, given, scope)
-    write(entailment.RENDERERS[form](ruleset, context, answer, Palette.of(sys.stdout)))
+    write(entailment.RENDERERS[form](ruleset, context, answer, Palette.of(sys.stdout, language)))
     return exits.HOLDS if answer.consistent else exits.FINDINGS
 
 

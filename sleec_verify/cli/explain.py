@@ -12,7 +12,8 @@ from sleec_verify.cli.entail import ask
 from sleec_verify.cli.output import write
 
 if TYPE_CHECKING:
-    from sleec_verify.cli.scope import Scope
+    from sleec_verify.encoding.scope import Scope
+    from sleec_verify.wording.translation import Language
 
 
 @click.command(
@@ -21,7 +22,8 @@ if TYPE_CHECKING:
     epilog="Example: sleec-verify explain rulesets/household.sleec --when CurtainOpenRequest --given UserUndressed",
 )
 @options.situation
-def command(path: str, when: tuple[str, ...], given: tuple[str, ...], scope: Scope) -> int:
+@options.language
+def command(path: str, when: tuple[str, ...], given: tuple[str, ...], scope: Scope, language: Language) -> int:
     """Explain what the rules in FILE (- for standard input) require in one situation.
 
     For each triggered rule, the output says which response or exception applies, and because of which conditions.
@@ -32,5 +34,5 @@ def command(path: str, when: tuple[str, ...], given: tuple[str, ...], scope: Sco
     from sleec_verify.report.palette import Palette
 
     ruleset, context, answer = ask(path, when, given, scope)
-    write(render(ruleset, context, answer, Palette.of(sys.stdout)))
+    write(render(ruleset, context, answer, Palette.of(sys.stdout, language)))
     return exits.HOLDS if answer.consistent else exits.FINDINGS

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import click
 
 from sleec_runtime.errors import SleecError, UnreadableFile
-from sleec_runtime.language import parse_source
 from sleec_verify.cli import exits
 from sleec_verify.cli.cached_checks import results as kept_or_new
 from sleec_verify.cli.inputs import rulesets
@@ -20,13 +19,14 @@ from sleec_verify.repairs.choice import chosen_repairs, combined
 from sleec_verify.repairs.rules_file import RulesFile
 from sleec_verify.repairs.search import RepairSearch
 from sleec_verify.repairs.simplification import simplifications
+from sleec_verify.repairs.verification import is_read_otherwise
 from sleec_verify.report.outcome import CheckedRuleset, UnusableInput
 from sleec_verify.results.internal_error import internal_errors_of
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
     from sleec_verify.cli.cache.store import Cache
-    from sleec_verify.cli.scope import Scope
+    from sleec_verify.encoding.scope import Scope
     from sleec_verify.repairs.repair import Repair
 
 
@@ -85,7 +85,7 @@ def _require_own_meaning(ruleset: Ruleset, scope: Scope) -> None:
     """Raise `UsageError` if the options give the rules another meaning than the whole text has on its own."""
     if scope.domain is not None and ruleset.domains:
         option = "--domain"
-    elif parse_source(ruleset.source).reading != ruleset.reading:
+    elif is_read_otherwise(ruleset):
         option = "--reading"
     elif not scope.chains:
         option = "--no-chains"
@@ -130,11 +130,10 @@ def _repairs(
 ) -> Iterator[Repair]:
     """The repairs, each of the text after the one before it."""
     results = kept_or_new(ruleset, scope, cache, progress)
-    how = scope.domain, scope.untimed, scope.chains
     if not chosen:
-        yield from simplifications(ruleset, results, *how)
+        yield from simplifications(ruleset, results, scope)
         return
     findings = CheckedRuleset(ruleset, results).deduplicated
-    search = RepairSearch(ruleset, results, *how)
+    search = RepairSearch(ruleset, results, scope)
     repairs = chosen_repairs(chosen, findings, search, ruleset.source.path, progress)
-    yield combined(repairs, ruleset, results, *how)
+    yield combined(repairs, search)

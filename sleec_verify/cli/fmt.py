@@ -13,7 +13,7 @@ from sleec_verify.cli.output import complain, note_link, tell, write_data, write
 from sleec_verify.files.placement import write_whole
 from sleec_verify.report.outcome import UnusableInput
 from sleec_verify.results.internal_error import internal_errors_of
-from sleec_verify.results.phrases import counted
+from sleec_verify.wording.phrases import counted
 
 
 @click.command(

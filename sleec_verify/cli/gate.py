@@ -160,7 +160,7 @@ def command(
 def _check(untimed: Untimed, no_cache: bool) -> Check:
     """Checks a ruleset as `check` does, and uses the same cache."""
     from sleec_verify.cli.cached_checks import cache_of_environment, results
-    from sleec_verify.cli.scope import Scope
+    from sleec_verify.encoding.scope import Scope
 
     cache = None if no_cache else cache_of_environment()
     return lambda ruleset: results(ruleset, Scope(untimed=untimed), cache)

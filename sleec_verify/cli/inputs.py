@@ -13,7 +13,7 @@ from sleec_verify.cli.output import note, note_link
 from sleec_verify.files.folders import SUFFIX, rulesets_below
 from sleec_verify.report.outcome import UnusableInput
 from sleec_verify.results.internal_error import internal_errors_of
-from sleec_verify.results.phrases import listed, quoted, shortened
+from sleec_verify.wording.phrases import listed, quoted, shortened
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading, Ruleset

@@ -9,9 +9,10 @@ from typing import Any, TypeVar, cast
 import click
 
 from sleec_runtime.support.files import DEFAULT_MAX_SIZE, size_limit
-from sleec_verify.cli.scope import Scope
 from sleec_verify.cli.sizes import size_in_bytes
+from sleec_verify.encoding.scope import Scope
 from sleec_verify.results.finding import SEVERITIES
+from sleec_verify.wording.translation import LANGUAGES
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
@@ -166,6 +167,17 @@ output = click.option(
 )
 
 no_cache = click.option("--no-cache", is_flag=True, help="Do not use or write the cache.")
+
+
+language = click.option(
+    "--language",
+    type=click.Choice(LANGUAGES),
+    default=LANGUAGES[0],
+    show_default=True,
+    envvar="SLEEC_VERIFY_LANGUAGE",
+    show_envvar=True,
+    help="The language of sentences for people. Output for programs is always English.",
+)
 
 
 def output_format(*names: str) -> Callable[[_Command], _Command]:

@@ -9,28 +9,29 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_verify.report.outcome import Outcome
+    from sleec_verify.wording.translation import Language
 
 tracebacks = False
 """Whether `complain` shows where an error was raised, as ``--traceback`` asks for."""
 
 
-def report(outcomes: Sequence[Outcome], form: str, output: str | None) -> None:
+def report(outcomes: Sequence[Outcome], form: str, output: str | None, language: Language = "en") -> None:
     """Write the outcomes in the format `form`: to standard output, or to the file `output`, with a line on it on
-    standard error.
+    standard error. Formats for people are in this language.
 
     Raises:
         SleecError: the file cannot be written; what was there before stays.
     """
     from sleec_verify.report import renderer
-    from sleec_verify.report.palette import PLAIN, Palette
+    from sleec_verify.report.palette import Palette
 
     if output is None:
-        write(renderer(form)(outcomes, Palette.of(sys.stdout)))
+        write(renderer(form)(outcomes, Palette.of(sys.stdout, language)))
         return
     from sleec_verify.files.placement import write_whole
     from sleec_verify.report.outcome import in_short
 
-    write_whole(output, "".join(renderer(form)(outcomes, PLAIN)).encode("utf-8", "surrogateescape"))
+    write_whole(output, "".join(renderer(form)(outcomes, Palette(False, language))).encode("utf-8", "surrogateescape"))
     tell(f"{output}: {in_short(outcomes)}")
 
 

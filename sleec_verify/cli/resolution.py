@@ -20,11 +20,11 @@ from sleec_verify.repairs.rules_file import FileChanged, RulesFile, require_writ
 from sleec_verify.report.full import finding_lines
 from sleec_verify.report.palette import Palette
 from sleec_verify.report.repair_phrases import effect_in_words
-from sleec_verify.results.phrases import counted, quoted, shortened
+from sleec_verify.wording.phrases import counted, quoted, shortened
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
-    from sleec_verify.cli.scope import Scope
+    from sleec_verify.encoding.scope import Scope
     from sleec_verify.repairs.repair import Repair
     from sleec_verify.results.finding import Finding
 

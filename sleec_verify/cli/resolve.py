@@ -16,11 +16,11 @@ from sleec_verify.encoding.budget import limited
 from sleec_verify.report.escape import as_text
 from sleec_verify.report.full import finding_lines
 from sleec_verify.report.palette import Palette
-from sleec_verify.results.phrases import counted
+from sleec_verify.wording.phrases import counted
 
 if TYPE_CHECKING:
     from sleec_verify.cli.conflicts import Conflicts
-    from sleec_verify.cli.scope import Scope
+    from sleec_verify.encoding.scope import Scope
 
 
 @click.command(

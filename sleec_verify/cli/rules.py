@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from sleec_verify.audit.kinds import NAME
 from sleec_verify.checks import CHECKS
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.output import write
@@ -35,8 +36,8 @@ def _completed(context: click.Context, parameter: click.Parameter, incomplete: s
 @click.argument("code", required=False, shell_complete=_completed)
 @options.output_format("full", "json")
 def command(code: str | None, form: str) -> int:
-    """List all findings of `check` and `conform`, or explain one finding CODE or one check: what it means, why it
-    matters, how to fix it, and an example with the problem and one without."""
+    """List all findings of `check`, `conform` and `audit`, or explain one finding CODE or one check: what it means, why
+    it matters, how to fix it, and an example with the problem and one without."""
     kinds = by_code()
     chosen = kinds if code is None else _matching(kinds, code)
     palette = Palette.of(sys.stdout)
@@ -58,7 +59,7 @@ _ByCode = Mapping[str, Entry]
 def _matching(kinds: _ByCode, code: str) -> _ByCode:
     wanted = {c: entry for c, entry in kinds.items() if code.upper() == c or code == entry.check}
     if not wanted:
-        from sleec_verify.results.phrases import quoted, shortened
+        from sleec_verify.wording.phrases import quoted, shortened
 
         near = _near(kinds, code)
         hint = f"did you mean {near}?" if near else "`sleec-verify rules` lists all codes"
@@ -73,7 +74,7 @@ def _near(kinds: _ByCode, code: str) -> str | None:
     written = code.upper()
     same = [c for c in kinds if c[:-2] == written[:-2]]
     slips = (c for c in kinds if abs(len(c) - len(written)) < 2 and edit_distance(written, c, 2) < 2)
-    return nearest(written, same) or next(slips, None) or nearest(code, [*CHECKS, structure.NAME])
+    return nearest(written, same) or next(slips, None) or nearest(code, [*CHECKS, structure.NAME, NAME])
 
 
 @as_text

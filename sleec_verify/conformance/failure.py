@@ -8,7 +8,7 @@ from sleec_runtime.errors import ConflictInContext, UndeterminedDecision
 from sleec_runtime.model import Context, Ruleset
 from sleec_verify.conformance.oracle import Expectation
 from sleec_verify.conformance.subject import Observation
-from sleec_verify.results.phrases import context_text
+from sleec_verify.wording.phrases import context_text
 
 
 class Nonconformance(AssertionError):

@@ -14,7 +14,7 @@ from sleec_runtime.model import Context, Value
 from sleec_verify.conformance import strategies
 from sleec_verify.conformance.failure import Nonconformance, difference, situation_text
 from sleec_verify.conformance.subject import Bench, Observation
-from sleec_verify.results.phrases import value_text
+from sleec_verify.wording.phrases import value_text
 
 
 def state_machine(bench: Bench, *, threads: bool = False) -> type[RuleBasedStateMachine]:

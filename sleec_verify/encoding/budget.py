@@ -10,9 +10,10 @@ timeout is a time instead. The budget is a context variable, and code that works
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
+from copy import copy
 from time import monotonic
 from typing import NoReturn
 
@@ -76,10 +77,26 @@ class Budget:
 
     def part(self, part: float) -> Budget:
         """A budget with this fraction of what is left."""
-        deadline = monotonic() + self.seconds() * part if self.is_timed else self._deadline
-        found = Budget(self.reason, max(self.steps, 0) * part, deadline)
-        found.whole = self.whole
+        found = copy(self)
+        found._deadline = monotonic() + self.seconds() * part if self.is_timed else self._deadline
+        found.steps = max(self.steps, 0) * part
+        found.ran_out = False
         return found
+
+
+class InterruptibleBudget(Budget):
+    """A budget for work that can be cancelled: `interrupt` then raises an exception."""
+
+    def __init__(
+        self, interrupt: Callable[[], None], reason: str, steps: float = float("inf"), deadline: float = float("inf")
+    ) -> None:
+        super().__init__(reason, steps, deadline)
+        self._interrupt = interrupt
+
+    def spend(self, steps: float) -> None:
+        """Count steps, as every budget does, or raise the exception of `interrupt`."""
+        self._interrupt()
+        super().spend(steps)
 
 
 _current: ContextVar[Budget | None] = ContextVar("budget", default=None)
@@ -98,22 +115,45 @@ def spend(steps: float) -> None:
 
 
 @contextmanager
-def limited(seconds: float) -> Iterator[None]:
+def limited(seconds: float, interrupt: Callable[[], None] | None = None) -> Iterator[None]:
     """Limit the time of the block, in place of the budget of each file. Anything undecided by then is unknown.
+    `interrupt` is called again and again; its exception ends the work.
 
     A file is always read completely.
     """
-    with _using(Budget(f"the timeout of {seconds:g} seconds has passed", deadline=monotonic() + seconds)):
+    reason, deadline = f"the timeout of {seconds:g} seconds has passed", monotonic() + seconds
+    with _using(
+        Budget(reason, deadline=deadline)
+        if interrupt is None
+        else InterruptibleBudget(interrupt, reason, deadline=deadline)
+    ):
         yield
 
 
 @contextmanager
-def for_file(characters: int) -> Iterator[None]:
-    """Use the budget for a text with this number of characters, unless there is a budget already."""
+def limited_to_steps(steps: int, reason: str) -> Iterator[Budget]:
+    """Limit the steps of the block, unless there is a budget already. `reason` is the message if they are not
+    sufficient."""
+    budget = _current.get()
+    if budget is not None:
+        yield budget
+        return
+    budget = Budget(reason, steps)
+    with _using(budget):
+        yield budget
+
+
+@contextmanager
+def for_file(characters: int, interrupt: Callable[[], None] | None = None) -> Iterator[None]:
+    """Use the budget for a text with this number of characters, unless there is a budget already. `interrupt` is
+    called again and again; its exception ends the work."""
     if _current.get() is not None:
         yield
         return
-    with _using(Budget(_FILE_SPENT, FILE + PER_CHARACTER * characters)):
+    steps = FILE + PER_CHARACTER * characters
+    with _using(
+        Budget(_FILE_SPENT, steps) if interrupt is None else InterruptibleBudget(interrupt, _FILE_SPENT, steps)
+    ):
         yield
 
 

@@ -28,7 +28,8 @@ class Definition1:
     ) -> None:
         encoder = self._encoder = Encoder(ruleset.measures, missing)
         self._in_force = encoder.fresh()
-        self.guards = [(rule, encoder.guards(rule, ruleset.reading)) for rule in rules or ruleset.rules]
+        encoded = ruleset.rules if rules is None else rules
+        self.guards = [(rule, encoder.guards(rule, ruleset.reading)) for rule in encoded]
         for rule, guards in self.guards:
             for clause, guard in zip(rule.clauses(), guards):
                 for obligation in clause.obligations:

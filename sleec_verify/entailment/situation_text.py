@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from sleec_runtime.errors import SleecError
-from sleec_verify.results.phrases import quoted, shortened
+from sleec_verify.wording.phrases import quoted, shortened
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Measure, Ruleset, Value

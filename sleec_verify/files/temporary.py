@@ -25,25 +25,29 @@ def with_temporary(beside: str, use: Callable[[str], _T]) -> _T:
         _remove(path)
 
 
-def put_in_place(target: str, content: bytes, new: bool = False) -> None:
+def put_in_place(target: str, content: bytes, new: bool = False, private: bool = False) -> None:
     """Replace the content of the file at `target` by `content`, atomically, with the permissions of the existing file.
-    A `new` file replaces nothing.
+    A `new` file replaces nothing. A `private` file can be read by its owner only.
 
     Raises:
         OSError: it cannot be written, and is unchanged. FileExistsError if a `new` file already exists.
     """
 
     def use(path: str) -> None:
-        with open(path, "xb") as file:
+        with open(path, "xb", opener=_open_private if private else None) as file:
             file.write(content)
         if new:
             _link(path, target)
             return
-        if os.path.isfile(target):
+        if os.path.isfile(target) and not private:
             os.chmod(path, stat.S_IMODE(os.stat(target).st_mode))
         os.replace(path, target)
 
     with_temporary(target, use)
+
+
+def _open_private(path: str, flags: int) -> int:
+    return os.open(path, flags, 0o600)
 
 
 def _link(path: str, target: str) -> None:

@@ -25,7 +25,7 @@ def read_toml(
     try:
         return parse_toml(read_file(path), shown, error, parse_float)
     except FileNotFoundError:
-        raise error(f"there is no file {shown}", "check its name and folder") from None
+        raise error(f"file {shown} does not exist", "check its name and folder") from None
     except OSError as problem:
         raise error(f"{shown} cannot be read: {problem.strerror}") from None
 
@@ -43,7 +43,7 @@ def parse_toml(
     except RecursionError:
         raise error(f"{shown} is nested too deeply") from None
     except ValueError as problem:
-        raise error(f"{shown} is no TOML: {problem}") from None
+        raise error(f"{shown} is not TOML: {problem}") from None
     return table
 
 

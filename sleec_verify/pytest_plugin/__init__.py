@@ -182,7 +182,7 @@ def _see_ruleset(config: pytest.Config) -> None:
 
         path = settings.ruleset_path(config)
         if path is not None and not path.is_file():
-            raise pytest.UsageError(f"sleec_ruleset: there is no file {path}")
+            raise pytest.UsageError(f"sleec_ruleset: file {path} does not exist")
 
 
 def _are_cases(path: Path) -> bool:

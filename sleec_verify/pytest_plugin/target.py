@@ -59,7 +59,7 @@ def _module(where: str, folder: Path) -> ModuleType:
     path = folder / where
     spec = importlib.util.spec_from_file_location(path.stem, path)
     if not path.is_file() or spec is None or spec.loader is None:
-        raise TargetError(f"there is no file {path}", "use a path relative to the folder in which pytest runs")
+        raise TargetError(f"file {path} does not exist", "use a path relative to the folder in which pytest runs")
     module = importlib.util.module_from_spec(spec)
     # Classes of the module, such as dataclasses, look it up there.
     sys.modules.setdefault(path.stem, module)

@@ -26,7 +26,7 @@ from sleec_verify.entailment.entailment import entail
 from sleec_verify.pytest_plugin import settings
 from sleec_verify.pytest_plugin.coverage import not_counted
 from sleec_verify.pytest_plugin.item import CaseFailure, Item, check_names
-from sleec_verify.results.phrases import listed
+from sleec_verify.wording.phrases import listed
 
 
 def timed_rules(parent: pytest.File, ruleset: Ruleset, target: Factory | None) -> Iterator[pytest.Item]:

@@ -7,17 +7,15 @@ from dataclasses import replace
 from itertools import combinations
 
 from sleec_runtime.errors import SleecError
-from sleec_runtime.model import Ruleset
 from sleec_verify.checks import CHECKS, Progress
-from sleec_verify.encoding.trace_scope import Untimed
 from sleec_verify.repairs.edit import OverlappingEdits, in_order
-from sleec_verify.repairs.effect import effect_of
 from sleec_verify.repairs.numbering import NumberedRepair, ends_by_time, numbered_repairs
 from sleec_verify.repairs.repair import Repair
 from sleec_verify.repairs.search import RepairSearch
-from sleec_verify.repairs.verification import Rejected, Verification
-from sleec_verify.results.finding import CheckResult, Finding
-from sleec_verify.results.phrases import counted, listed
+from sleec_verify.repairs.verification import Rejected
+from sleec_verify.results.finding import Finding
+from sleec_verify.wording.phrases import counted, listed
+from sleec_verify.wording.sentence import joined
 
 ONE_BY_ONE = "nothing was written; apply one of them, check again, and choose another"
 
@@ -74,15 +72,8 @@ def _unknown_code(code: str, path: str) -> UnknownRepair:
     return UnknownRepair(f"no finding has the code {code}", "`sleec-verify rules` lists the codes")
 
 
-def combined(
-    chosen: Sequence[NumberedRepair],
-    ruleset: Ruleset,
-    results: Sequence[CheckResult],
-    domain: str | None = None,
-    untimed: Untimed = "at",
-    chains: bool = True,
-) -> Repair:
-    """The repairs of `ruleset` as one, verified together if they are several: each is only verified on its own.
+def combined(chosen: Sequence[NumberedRepair], search: RepairSearch) -> Repair:
+    """The repairs that `search` has found as one. Several are verified together: each is only verified on its own.
 
     Costs a check for each of several repairs.
 
@@ -96,19 +87,16 @@ def combined(
     for one, other in combinations(chosen, 2):
         _require_apart(one, other)
     edits = tuple(in_order(edit for one in chosen for edit in one.repair.candidate.edits))
-    title = "; ".join(one.repair.candidate.title for one in chosen)
+    title = joined("; ", (one.repair.candidate.title for one in chosen))
     joint = replace(first.candidate, title=title, edits=edits)
-    verification = Verification(ruleset, results, domain, untimed, chains)
     together = f"together, {listed(one.identifier for one in chosen)}"
     try:
-        for one in chosen:
-            repaired = verification.repaired(one.repair.finding, joint)
+        verified = [search.verified(one.repair.finding, joint) for one in chosen]
     except Rejected as rejected:
         raise IncompatibleRepairs(f"{together} are not a repair: {rejected}", ONE_BY_ONE) from None
-    effect = effect_of(ruleset, repaired, domain, untimed)
-    if not effect.keeps_meaning and all(one.repair.effect.keeps_meaning for one in chosen):
+    if not verified[0].effect.keeps_meaning and all(one.repair.effect.keeps_meaning for one in chosen):
         raise IncompatibleRepairs(f"{together} change the meaning, which each of them keeps", ONE_BY_ONE)
-    return Repair(first.finding, joint, effect, repaired)
+    return verified[0]
 
 
 def _require_apart(one: NumberedRepair, other: NumberedRepair) -> None:

@@ -6,13 +6,14 @@ A change of an ALWAYS statement changes all its rules, so a title quotes the sta
 from __future__ import annotations
 
 from sleec_runtime.model import Rule, Ruleset
-from sleec_verify.results.phrases import exception, quoted
+from sleec_verify.wording.phrases import exception, quoted
+from sleec_verify.wording.sentence import sentence
 
 
 def rule_name(ruleset: Ruleset, rule: Rule) -> str:
     """``rule `air` ``, or `` `ALWAYS be polite` ``."""
     if rule.always is None:
-        return f"rule {quoted(rule.label)}"
+        return sentence("rule {rule}", rule=quoted(rule.label))
     return always_statement(ruleset, rule)
 
 
@@ -25,4 +26,8 @@ def always_statement(ruleset: Ruleset, rule: Rule) -> str:
 def clause_name(ruleset: Ruleset, rule: Rule, number: int) -> str:
     """``rule `air` ``, or ``the exception `UNLESS c` of rule `air` `` for a clause that is not the default."""
     name = rule_name(ruleset, rule)
-    return f"{exception(list(rule.clauses())[number])} of {name}" if number else name
+    return (
+        sentence("{exception} of {rule}", exception=exception(list(rule.clauses())[number]), rule=name)
+        if number
+        else name
+    )

@@ -8,7 +8,7 @@ from sleec_verify.repairs.clause_names import always_statement
 from sleec_verify.repairs.comments import comment_around
 from sleec_verify.repairs.edit import OffsetMap, TextEdit, in_order
 from sleec_verify.repairs.statement_edits import indent_at, line_break_of, printer_of
-from sleec_verify.results.phrases import listed, quoted
+from sleec_verify.wording.phrases import listed, quoted
 
 if TYPE_CHECKING:
     from datetime import date

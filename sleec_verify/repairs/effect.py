@@ -10,7 +10,7 @@ from sleec_verify.changes.compare import compare
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
     from sleec_verify.changes.compare import Difference
-    from sleec_verify.encoding.trace_scope import Untimed
+    from sleec_verify.encoding.scope import Scope
 
 
 @dataclass(frozen=True)
@@ -29,10 +29,10 @@ class Effect:
         return self.difference.relation == "equivalent"
 
 
-def effect_of(old: Ruleset, new: Ruleset, domain: str | None = None, untimed: Untimed = "at") -> Effect:
+def effect_of(old: Ruleset, new: Ruleset, scope: Scope) -> Effect:
     """The effect of a repair that changes `old` to `new`. Costs a comparison of both."""
     # The checks of the changed text have shown which conflicts remain.
-    difference = compare(old, new, domain, untimed, over_time=False)
+    difference = compare(old, new, scope.domain, scope.untimed, over_time=False)
     return Effect(difference, _situations(difference))
 
 

@@ -8,21 +8,21 @@ from dataclasses import replace
 
 from sleec_runtime.errors import SleecError, Unsayable
 from sleec_runtime.model import Reading, Ruleset, Statement
-from sleec_verify.encoding.trace_scope import Untimed
+from sleec_verify.encoding.scope import WHOLE, Scope
 from sleec_verify.repairs.comments import loses_comment
 from sleec_verify.repairs.edit import edited, edits_between
 from sleec_verify.repairs.effect import effect_of
 from sleec_verify.repairs.operators import CONSEQUENCES, OPERATORS, Operation
-from sleec_verify.repairs.operators.removal import DECLARATION
+from sleec_verify.repairs.operators.removal import DECLARATION, declaration_removal
 from sleec_verify.repairs.repair import Candidate, Repair
 from sleec_verify.repairs.verification import Rejected, Verification
 from sleec_verify.results.finding import CheckResult, Finding
 from sleec_verify.results.internal_error import internal_errors_of
-from sleec_verify.results.phrases import listed
+from sleec_verify.wording.phrases import listed
+from sleec_verify.wording.sentence import sentence
 
 _MOST_STEPS = 6
 """The changes in one repair, at most."""
-
 
 _REMOVE = ("rule-removal", "defeater-removal", "declaration-removal", "claim-removal", "renaming")
 """The operators that may remove a statement or exception, together with its comments."""
@@ -31,22 +31,14 @@ _REMOVE = ("rule-removal", "defeater-removal", "declaration-removal", "claim-rem
 class RepairSearch:
     """The verified repairs of the findings of one ruleset.
 
-    `results` are those of `ruleset`, made with the same options. Every repair costs at most one check of the ruleset
+    `results` are those of `ruleset` in `scope`. Every repair costs at most one check of the ruleset
     and one comparison.
     """
 
-    def __init__(
-        self,
-        ruleset: Ruleset,
-        results: Sequence[CheckResult],
-        domain: str | None = None,
-        untimed: Untimed = "at",
-        chains: bool = True,
-    ) -> None:
+    def __init__(self, ruleset: Ruleset, results: Sequence[CheckResult], scope: Scope = WHOLE) -> None:
         self._ruleset = ruleset
-        self._domain = domain
-        self._untimed: Untimed = untimed
-        self._verification = Verification(ruleset, results, domain, untimed, chains)
+        self._scope = scope
+        self._verification = Verification(ruleset, results, scope)
         self.undecided: str | None = None
         """Why the last search of repairs may not have found all, if it may not."""
 
@@ -60,6 +52,12 @@ class RepairSearch:
                 if repair is not None:
                     found.setdefault((repair.repaired.reading, repair.repaired.statements), repair)
         return sorted(found.values(), key=_size)
+
+    def verified(self, finding: Finding, candidate: Candidate) -> Repair:
+        """The candidate with its effect. Raises `Rejected` if it is not a repair of the finding."""
+        repaired = self._verification.repaired(finding, candidate)
+        effect = effect_of(self._ruleset, repaired, self._scope)
+        return Repair(finding, candidate, effect, repaired)
 
     def candidates(self, finding: Finding) -> list[Candidate]:
         """The candidates of the operators for a finding, each changed text once."""
@@ -98,7 +96,7 @@ class RepairSearch:
         titles = [candidate.title]
         for _ in range(_MOST_STEPS):
             try:
-                repaired = self._verification.repaired(finding, candidate)
+                return self.verified(finding, candidate)
             except Rejected as rejected:
                 if rejected.undecided:
                     self.undecided = str(rejected)
@@ -113,9 +111,6 @@ class RepairSearch:
                     return None
                 titles.append(step[1].title)
                 candidate = replace(self._joined(candidate, *step), title=_in_steps(titles))
-            else:
-                effect = effect_of(self._ruleset, repaired, self._domain, self._untimed)
-                return Repair(finding, candidate, effect, repaired)
         return None
 
     def _joined(self, first: Candidate, changed: Ruleset, second: Candidate) -> Candidate:
@@ -132,10 +127,13 @@ def _in_steps(titles: Sequence[str]) -> str:
     names = [title.removeprefix(DECLARATION) for title in titles if title.startswith(DECLARATION)]
     steps = [title for title in titles if not title.startswith(DECLARATION)]
     if len(names) == 1:
-        steps.append(f"{DECLARATION}{names[0]}")
+        steps.append(declaration_removal(names[0]))
     elif names:
-        steps.append(f"remove the declarations of {listed(names)}")
-    return "; then ".join(steps)
+        steps.append(sentence("remove the declarations of {names}", names=listed(names)))
+    first, *others = steps
+    for step in others:
+        first = sentence("{steps}; then {step}", steps=first, step=step)
+    return first
 
 
 _Step = tuple[Ruleset, Candidate]

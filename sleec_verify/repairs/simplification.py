@@ -8,7 +8,7 @@ from dataclasses import replace
 from sleec_runtime.model import Ruleset
 from sleec_verify.checks import run_checks
 from sleec_verify.checks.misread_names import MISREAD_NAME
-from sleec_verify.encoding.trace_scope import Untimed
+from sleec_verify.encoding.scope import WHOLE, Scope
 from sleec_verify.repairs.operators import REMOVALS
 from sleec_verify.repairs.repair import Repair
 from sleec_verify.repairs.search import RepairSearch
@@ -23,22 +23,16 @@ _ONE_NAME = "SLEEC525"
 both have a definition, so there the author decides."""
 
 
-def simplifications(
-    ruleset: Ruleset,
-    results: Sequence[CheckResult],
-    domain: str | None = None,
-    untimed: Untimed = "at",
-    chains: bool = True,
-) -> Iterator[Repair]:
+def simplifications(ruleset: Ruleset, results: Sequence[CheckResult], scope: Scope = WHOLE) -> Iterator[Repair]:
     """Repairs that change no meaning, or write one name in one way.
 
     Each is one of the rules after the repair before it, until there are no more. One at a time, because a repair may
     make another one wrong: of two equal rules, each is redundant as long as the other is there. The last of them goes
-    first. A finding that a comment allows stays. `results` are those of `ruleset`, made with the same options. Each
+    first. A finding that a comment allows stays. `results` are those of `ruleset` in `scope`. Each
     repair costs some checks.
     """
     while True:
-        search = RepairSearch(ruleset, results, domain, untimed, chains)
+        search = RepairSearch(ruleset, results, scope)
         findings = _open(ruleset, [f for result in results for f in result.findings if f.code in (*_CODES, _ONE_NAME)])
         has_misread_names = any(result.findings for result in results if result.name == MISREAD_NAME.name)
         needed = _declared(ruleset) if has_misread_names else frozenset[str]()
@@ -52,7 +46,7 @@ def simplifications(
             return
         yield repair
         ruleset = repair.repaired
-        results = run_checks(ruleset, None, domain, untimed=untimed, chains=chains)
+        results = run_checks(ruleset, None, scope.domain, untimed=scope.untimed, chains=scope.chains)
 
 
 def _open(ruleset: Ruleset, findings: Sequence[Finding]) -> list[Finding]:

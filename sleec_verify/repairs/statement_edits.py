@@ -237,10 +237,5 @@ def without_obligations(ruleset: Ruleset, clause: Clause, removed: Iterable[Obli
     return tuple(edits)
 
 
-def removed_rule(ruleset: Ruleset, rule: Rule) -> tuple[TextEdit, ...]:
-    """The text without a rule. Comments above it stay."""
-    return without(ruleset, rule.span)
-
-
 def replaced(span: Span, text: str) -> tuple[TextEdit, ...]:
     return (TextEdit(span.start, span.end, text),)

@@ -11,7 +11,8 @@ from sleec_runtime.language import parse, parse_source
 from sleec_runtime.model import Rule, Ruleset
 from sleec_verify.checks import COSTLY, Checking, checks_for
 from sleec_verify.checks.conflict import CONFLICT
-from sleec_verify.encoding.trace_scope import Untimed
+from sleec_verify.encoding.budget import spend
+from sleec_verify.encoding.scope import WHOLE, Scope
 from sleec_verify.repairs.edit import OffsetMap, edited, in_order, inverse
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.results.finding import CheckResult, Finding, Unknown
@@ -20,6 +21,11 @@ Identity = tuple[Hashable, ...]
 """What makes a finding the same before and after a change. A conflict is known by its rules and the places of its
 clauses. Any other finding is known by its own place, because the rules that it names may be only those of the situation
 that it shows."""
+
+
+def is_read_otherwise(ruleset: Ruleset) -> bool:
+    """Whether an option of the command replaces the reading of the text. O(size of the text)."""
+    return parse_source(ruleset.source).reading != ruleset.reading
 
 
 class Rejected(Exception):
@@ -40,23 +46,13 @@ class Rejected(Exception):
 class Verification:
     """Checks changed texts of one ruleset against the findings that it has.
 
-    `results` are those of `ruleset`; the options are those with which they were made.
+    `results` are those of `ruleset` in `scope`.
     """
 
-    def __init__(
-        self,
-        ruleset: Ruleset,
-        results: Sequence[CheckResult],
-        domain: str | None = None,
-        untimed: Untimed = "at",
-        chains: bool = True,
-    ) -> None:
+    def __init__(self, ruleset: Ruleset, results: Sequence[CheckResult], scope: Scope = WHOLE) -> None:
         self._ruleset = ruleset
-        self._domain = domain
-        self._untimed: Untimed = untimed
-        self._chains = chains
-        # An option of the command replaces the reading that the text states.
-        self._is_read_otherwise = parse_source(ruleset.source).reading != ruleset.reading
+        self._scope = scope
+        self._is_read_otherwise = is_read_otherwise(ruleset)
         self._names = [result.name for result in results]
         self._unknown = {result.name for result in results if isinstance(result.verdict, Unknown)}
         self._found = Counter(_identity(ruleset, f) for result in results for f in result.findings)
@@ -67,9 +63,11 @@ class Verification:
         A check that decided before must decide again. Costs at most one check of the ruleset.
 
         Raises:
+            OutOfBudget: the budget is spent.
             Rejected: the change is not a repair, or it cannot be shown to be one.
         """
         source = self._ruleset.source
+        spend(len(source.text))
         edits = in_order(candidate.edits)
         try:
             new = parse(edited(source.text, edits), source.path)
@@ -116,7 +114,8 @@ class Verification:
         return new
 
     def _checking(self, ruleset: Ruleset, examine: Callable[[Finding], None] | None = None) -> Checking:
-        return Checking(ruleset, self._domain, self._untimed, chains=self._chains, seen=examine)
+        scope = self._scope
+        return Checking(ruleset, scope.domain, scope.untimed, chains=scope.chains, seen=examine)
 
 
 class _Places:

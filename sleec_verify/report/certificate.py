@@ -10,7 +10,7 @@ from sleec_verify.certificates.manifest import FORMULAS, Uncertified
 from sleec_verify.report.escape import as_text
 from sleec_verify.results.finding import Refuted
 from sleec_verify.results.json_values import VERDICTS, Json, dump
-from sleec_verify.results.phrases import counted, listed
+from sleec_verify.wording.phrases import counted, listed
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import CertificateRefused

@@ -5,25 +5,28 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from sleec_verify.entailment.answer import ConsequenceStep
+from sleec_verify.wording.phrases import listed
+from sleec_verify.wording.sentence import joined, sentence
 
 
 def lines(steps: tuple[ConsequenceStep, ...], indent: str = "  ") -> Iterator[str]:
     """The tree as lines of text."""
     for step in steps:
-        yield indent + step.name + _said(step)
+        yield joined("", [indent, step.name, _said(step)])
         for because, done in step.clauses:
-            yield f"{indent}  {because.layer or because.rule}: {' AND '.join(because.in_words()) or 'nothing'}"
+            due = " AND ".join(because.in_words()) or sentence("nothing")
+            yield joined("", [f"{indent}  {because.layer or because.rule}: ", due])
             yield from lines(tuple(one for one in done if one.leads_on or one.forbidden), indent + "    ")
 
 
 def _said(step: ConsequenceStep) -> str:
-    words = []
+    words: list[str] = []
     if step.cycle:
-        words.append("already in progress: a cycle")
+        words.append(sentence("already in progress: a cycle"))
     elif step.seen:
-        words.append("as above")
+        words.append(sentence("as above"))
     elif step.more:
-        words.append("and so on")
+        words.append(sentence("and so on"))
     if step.forbidden:
-        words.append(f"forbidden by {' and '.join(step.forbidden)}")
-    return f" ({'; '.join(words)})" if words else ""
+        words.append(sentence("forbidden by {clauses}", clauses=listed(step.forbidden)))
+    return joined("", [" (", joined("; ", words), ")"]) if words else ""

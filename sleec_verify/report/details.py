@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
-from sleec_verify.results.phrases import listed, witness_text
+from sleec_verify.wording.phrases import listed, witness_text
+from sleec_verify.wording.sentence import sentence
 
 if TYPE_CHECKING:
     from sleec_verify.results.finding import Finding
@@ -24,18 +25,18 @@ def details(finding: Finding, chart: bool = False) -> Iterator[Detail]:
     if finding.timeline is not None:
         from sleec_verify.report import timeline
 
-        yield Detail("timeline", lines=tuple(timeline.in_words(finding.timeline)))
+        yield Detail(sentence("timeline"), lines=tuple(timeline.in_words(finding.timeline)))
         if chart:
-            yield Detail("chart", lines=tuple(timeline.chart_of(finding.timeline)))
+            yield Detail(sentence("chart"), lines=tuple(timeline.chart_of(finding.timeline)))
     elif finding.strategy is not None:
         from sleec_verify.report import strategy
 
-        yield Detail("strategy of the environment", lines=tuple(strategy.in_words(finding.strategy)))
+        yield Detail(sentence("strategy of the environment"), lines=tuple(strategy.in_words(finding.strategy)))
     elif finding.witness is not None:
-        yield Detail("situation", witness_text(finding.witness))
+        yield Detail(sentence("situation"), witness_text(finding.witness))
     if finding.domains:
-        yield Detail("domain", listed(finding.domains))
+        yield Detail(sentence("domain"), listed(finding.domains))
     if finding.note is not None:
-        yield Detail("note", finding.note)
+        yield Detail(sentence("note"), finding.note)
     if finding.help is not None:
-        yield Detail("help", finding.help)
+        yield Detail(sentence("help"), finding.help)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from sleec_verify.changes.compare import by_obligation
 from sleec_verify.report.difference_phrases import RELATION_ROLES
 from sleec_verify.report.escape import as_text
-from sleec_verify.results.phrases import counted, in_domains, in_short, value_text
+from sleec_verify.wording.phrases import counted, in_domains, in_short, value_text
 
 if TYPE_CHECKING:
     from sleec_verify.changes.compare import (

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_verify.report.difference_phrases import (
+    RELATION_NAMES,
     RELATION_ROLES,
     WORDS,
     conflict_rules,
@@ -19,7 +20,8 @@ from sleec_verify.report.difference_phrases import (
 )
 from sleec_verify.report.escape import as_text
 from sleec_verify.report.timeline import in_words
-from sleec_verify.results.phrases import counted, given, in_domains, listed, occurring, quoted
+from sleec_verify.wording.phrases import counted, given, in_domains, kind_words, listed, occurring, quoted
+from sleec_verify.wording.sentence import joined, plural, sentence
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
@@ -29,6 +31,7 @@ if TYPE_CHECKING:
         ConflictChange,
         DecidingClause,
         Difference,
+        Relation,
         SituationChange,
         TimedConflictChange,
     )
@@ -51,8 +54,7 @@ def render(report: DifferenceReport, palette: Palette) -> Iterator[str]:
 
 def on_difference(found: Difference, palette: Palette) -> Iterator[str]:
     """The lines on one ruleset."""
-    word = palette(RELATION_ROLES[found.relation], found.relation)
-    yield f"{paths_text(found.old, found.new)}: {word}: {relation_text(found)}"
+    yield joined(": ", [paths_text(found.old, found.new), _relation(found.relation, palette), relation_text(found)])
     for change in found.changes:
         yield from _change(found, change, palette)
     for conflict in found.conflicts:
@@ -66,9 +68,9 @@ def on_difference(found: Difference, palette: Palette) -> Iterator[str]:
     yield from _names(found, palette)
     yield from _same_meaning(found, palette)
     for what, why in found.undecided:
-        yield f"  {palette('unknown', 'unknown')}: {what}: {why}"
+        yield _titled(palette("unknown", sentence("unknown")), joined(": ", [what, why]))
     for note in found.notes:
-        yield f"  {palette('note', 'note')}: {note}"
+        yield _titled(palette("note", sentence("note")), note)
 
 
 def paths_text(old: Ruleset, new: Ruleset) -> str:
@@ -77,23 +79,26 @@ def paths_text(old: Ruleset, new: Ruleset) -> str:
 
 def _change(found: Difference, change: Change, palette: Palette) -> Iterator[str]:
     yield ""
-    yield f"  {palette('strong', rule_text(change))}: {effect_text(change)}"
-    yield f"    {witness_text(change.witness)}:"
-    yield from _before_and_after(found, change.before, change.after, palette)
-    yield f"    {extent_text(change.extent)}{in_domains(change.domains)}"
+    yield _titled(palette("strong", rule_text(change)), effect_text(change))
+    yield from _sides(found, change, palette)
 
 
-def _before_and_after(
-    found: Difference, before: Sequence[DecidingClause], after: Sequence[DecidingClause], palette: Palette
-) -> Iterator[str]:
-    for word, deciding, ruleset in (("before", before, found.old), ("after", after, found.new)):
+def _sides(found: Difference, one: Change | ConflictChange, palette: Palette) -> Iterator[str]:
+    """The smallest situation, the clauses that decide in it on each side, and the number of affected situations."""
+    yield joined("", ["    ", witness_text(one.witness), ":"])
+    # Both words have eight characters in every language, so that the lines are aligned.
+    for word, deciding, ruleset in (
+        (sentence("before  "), one.before, found.old),
+        (sentence("after   "), one.after, found.new),
+    ):
         for at, line in enumerate(_decisions(deciding, ruleset)):
-            yield f"      {palette('faint', f'{word if at == 0 else str():7}')} {line}"
+            yield joined("", ["      ", palette("faint", " " * 8 if at else word), line])
+    yield joined("", ["    ", extent_text(one.extent), in_domains(one.domains)])
 
 
 def _decisions(deciding: Sequence[DecidingClause], ruleset: Ruleset) -> list[str]:
     """The obligations of each clause, with its place."""
-    return [deciding_text(one, ruleset) for one in deciding] or ["no rule applies"]
+    return [deciding_text(one, ruleset) for one in deciding] or [sentence("no rule applies")]
 
 
 def _timed_conflict(found: Difference, conflict: TimedConflictChange, palette: Palette) -> Iterator[str]:
@@ -101,62 +106,86 @@ def _timed_conflict(found: Difference, conflict: TimedConflictChange, palette: P
     source = (found.new if conflict.way == "added" else found.old).source
     yield ""
     place = f"{source.path}:{source.place(finding.span).line}"
-    yield f"  {_conflict_head(conflict.way, palette)}: {finding.message} ({place}){in_domains(conflict.domains)}"
+    message = joined("", [finding.message, f" ({place})", in_domains(conflict.domains)])
+    yield _titled(_conflict_head(conflict.way, palette), message)
     if finding.timeline is not None:
-        yield from (f"    {line}" for line in in_words(finding.timeline))
+        yield from (joined("", ["    ", line]) for line in in_words(finding.timeline))
     elif finding.witness is not None:
-        yield f"    {witness_text(finding.witness)}"
+        yield joined("", ["    ", witness_text(finding.witness)])
 
 
 def _conflict_head(way: Way, palette: Palette) -> str:
-    return palette("error", "new conflict") if way == "added" else palette("good", "resolved conflict")
+    if way == "added":
+        return palette("error", sentence("new conflict"))
+    return palette("good", sentence("resolved conflict"))
 
 
 def _conflict(found: Difference, conflict: ConflictChange, palette: Palette) -> Iterator[str]:
     ruleset = found.new if conflict.way == "added" else found.old
     head = _conflict_head(conflict.way, palette)
     lines = sorted({ruleset.source.place(span).line for span in conflict.origins})
-    several = "s" if len(lines) > 1 else ""
-    by = f" (constraint{several} in line{several} {listed(map(str, lines))})" if lines else ""
+    by = ""
+    if lines:
+        by = plural(
+            len(lines),
+            " (constraint in line {lines})",
+            " (constraints in lines {lines})",
+            lines=listed(map(str, lines)),
+        )
     yield ""
-    yield f"  {head}: {conflict_rules(conflict)}: {contradiction_text(conflict)}{by}"
-    yield f"    {witness_text(conflict.witness)}:"
-    yield from _before_and_after(found, conflict.before, conflict.after, palette)
-    yield f"    {extent_text(conflict.extent)}{in_domains(conflict.domains)}"
+    yield _titled(head, joined("", [conflict_rules(conflict), ": ", contradiction_text(conflict), by]))
+    yield from _sides(found, conflict, palette)
 
 
 def _situation(one: SituationChange, palette: Palette) -> Iterator[str]:
+    is_added = one.way == "added"
+    change = sentence("removed assumption: {text}", text=one.what)
+    if not is_added:
+        change = sentence("new assumption: {text}", text=one.what)
     yield ""
-    if one.way == "added":
-        yield f"  {palette('strong', 'situations')}: removed assumption: {one.what}"
-    else:
-        yield f"  {palette('strong', 'situations')}: new assumption: {one.what}"
+    yield _titled(palette("strong", sentence("situations")), change)
     if one.witness is not None and one.extent is not None:
-        word = "is now possible" if one.way == "added" else "is now excluded"
-        occurs = f"when {occurring(one.witness.triggers)}" if one.witness.triggers else ""
-        facts = ", ".join(part for part in (occurs, *given(one.witness.conditions)) if part) or "any situation"
-        yield f"    {word}, for example: {facts}"
-        yield f"    {extent_text(one.extent)}{in_domains(one.domains)}"
+        occurs = [sentence("when {events}", events=occurring(one.witness.triggers))] if one.witness.triggers else []
+        facts = joined(", ", [*occurs, *given(one.witness.conditions)]) or sentence("any situation")
+        if is_added:
+            yield sentence("    is now possible, for example: {facts}", facts=facts)
+        else:
+            yield sentence("    is now excluded, for example: {facts}", facts=facts)
+        yield joined("", ["    ", extent_text(one.extent), in_domains(one.domains)])
 
 
 def _names(found: Difference, palette: Palette) -> Iterator[str]:
-    for way, title in (("added", "new names"), ("removed", "removed names")):
-        names = [f"{quoted(one.name)} ({one.kind})" for one in found.names if one.way == way]
+    for way, title in (("added", sentence("new names")), ("removed", sentence("removed names"))):
+        here = (one for one in found.names if one.way == way)
+        names = [sentence("{name} ({kind})", name=quoted(one.name), kind=kind_words(one.kind)) for one in here]
         if names:
-            yield f"  {palette('strong', title)}: {listed(names)}"
+            yield _titled(palette("strong", title), listed(names))
 
 
 def _same_meaning(found: Difference, palette: Palette) -> Iterator[str]:
     if found.renamed:
-        named = listed(f"{quoted(old)} is now {quoted(new)}" for old, new in found.renamed)
-        yield f"  {palette('strong', 'renamed')}: {named} (same meaning)"
+        named = listed(sentence("{old} is now {new}", old=quoted(old), new=quoted(new)) for old, new in found.renamed)
+        what = sentence("{changes} (same meaning)", changes=named)
+        yield _titled(palette("strong", sentence("renamed")), what)
     if found.rewritten:
         rules = listed(quoted(labels[-1]) for labels in found.rewritten)
-        yield f"  {palette('strong', 'rewritten')}: {rules} (same meaning)"
+        what = sentence("{changes} (same meaning)", changes=rules)
+        yield _titled(palette("strong", sentence("rewritten")), what)
     if found.reordered:
-        yield f"  {palette('strong', 'reordered')}: the rules are in a different order (same meaning)"
+        what = sentence("the rules are in a different order (same meaning)")
+        yield _titled(palette("strong", sentence("reordered")), what)
     if found.old.reading != found.new.reading:
-        yield f"  {palette('strong', 'readings')}: {found.old.reading} before, {found.new.reading} after"
+        what = sentence("{old} before, {new} after", old=found.old.reading, new=found.new.reading)
+        yield _titled(palette("strong", sentence("readings")), what)
+
+
+def _titled(title: str, text: str) -> str:
+    """An entry of a ruleset."""
+    return joined("", ["  ", title, ": ", text])
+
+
+def _relation(relation: Relation, palette: Palette) -> str:
+    return palette(RELATION_ROLES[relation], RELATION_NAMES[relation])
 
 
 def on_assertions(asked: Sequence[AssertionResult], palette: Palette) -> Iterator[str]:
@@ -168,19 +197,21 @@ def on_assertions(asked: Sequence[AssertionResult], palette: Palette) -> Iterato
     for assertion, ruleset, answer in asked:
         path = ruleset.source.path
         if answer is None:
-            yield f"{palette('good', 'holds')}: {assertion.text} ({path})"
+            yield joined("", [palette("good", sentence("holds")), f": {assertion.text} ({path})"])
         elif isinstance(answer, Violation):
-            yield f"{palette('error', 'broken')}: {assertion.text} ({path})"
-            yield f"  {witness_text(answer.witness)}{in_domains((answer.domain,) if answer.domain else ())}:"
-            yield from (f"    {line}" for line in _decisions(answer.deciding, ruleset))
+            yield joined("", [palette("error", sentence("broken")), f": {assertion.text} ({path})"])
+            where = in_domains((answer.domain,) if answer.domain else ())
+            yield joined("", ["  ", witness_text(answer.witness), where, ":"])
+            yield from (joined("", ["    ", line]) for line in _decisions(answer.deciding, ruleset))
         else:
-            yield f"{palette('unknown', 'unknown')}: {assertion.text} ({path}): {answer}"
+            yield joined("", [palette("unknown", sentence("unknown")), f": {assertion.text} ({path}): ", str(answer)])
 
 
 def _in_all(report: DifferenceReport, palette: Palette) -> str:
-    word = palette(RELATION_ROLES[report.relation], report.relation)
     number = len(report.compared) + report.unchanged
     unusable = sum(bool(one.errors) for one in report.compared)
-    parts = [f"{report.unchanged} unchanged"] if report.unchanged else []
-    parts += [f"{unusable} unusable"] if unusable else []
-    return f"{counted(number, 'ruleset')}{f' ({listed(parts)})' if parts else ''}: {word}: {WORDS[report.relation]}"
+    parts = [sentence("{number} unchanged", number=report.unchanged)] if report.unchanged else []
+    parts += [sentence("{number} unusable", number=unusable)] if unusable else []
+    size = counted(number, "ruleset")
+    counts = sentence("{size} ({parts})", size=size, parts=listed(parts)) if parts else size
+    return joined(": ", [counts, _relation(report.relation, palette), WORDS[report.relation]])

@@ -9,7 +9,7 @@ from sleec_verify import __version__
 from sleec_verify.changes.assertions.assertion import Violation
 from sleec_verify.changes.compare import by_obligation
 from sleec_verify.results.json_values import dump, error_json, finding_json, span_json, witness_json
-from sleec_verify.results.phrases import in_short
+from sleec_verify.wording.phrases import in_short
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset

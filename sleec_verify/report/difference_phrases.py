@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from sleec_verify.results.phrases import clause_name, counted, given, in_short, listed, occurring, quoted
+from sleec_verify.wording.phrases import clause_name, counted, given, grouped, in_short, listed, occurring, quoted
+from sleec_verify.wording.sentence import joined, plural, sentence
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Obligation, Ruleset
@@ -23,11 +24,20 @@ if TYPE_CHECKING:
 
 
 WORDS: Mapping[Relation, str] = {
-    "equivalent": "the new rules require the same in every situation",
-    "stricter": "the new rules require more in some situations, and less in none",
-    "laxer": "the new rules require less in some situations, and more in none",
-    "incomparable": "the new rules require more in some situations and less in others",
-    "unknown": "the comparison is inconclusive",
+    "equivalent": sentence("the new rules require the same in every situation"),
+    "stricter": sentence("the new rules require more in some situations, and less in none"),
+    "laxer": sentence("the new rules require less in some situations, and more in none"),
+    "incomparable": sentence("the new rules require more in some situations and less in others"),
+    "unknown": sentence("the comparison is inconclusive"),
+}
+
+
+RELATION_NAMES: Mapping[Relation, str] = {
+    "equivalent": sentence("equivalent"),
+    "stricter": sentence("stricter"),
+    "laxer": sentence("laxer"),
+    "incomparable": sentence("incomparable"),
+    "unknown": sentence("unknown"),
 }
 
 
@@ -42,25 +52,26 @@ RELATION_ROLES: Mapping[Relation, str] = {
 
 def relation_text(found: Difference) -> str:
     if found.relation == "incomparable" and found.conflict_ways and not (found.more and found.less):
-        return "only one version contradicts itself in some situations"
-    if found.relation in ("stricter", "laxer") and not found.changes:
-        more = "more" if found.relation == "stricter" else "fewer"
-        return f"the new rules allow {more} situations, and require the same in those that both versions allow"
+        return sentence("only one version contradicts itself in some situations")
+    if found.relation == "stricter" and not found.changes:
+        return sentence("the new rules allow more situations, and require the same in those that both versions allow")
+    if found.relation == "laxer" and not found.changes:
+        return sentence("the new rules allow fewer situations, and require the same in those that both versions allow")
     return WORDS[found.relation]
 
 
 def change_in_words(change: Change) -> str:
     """``dress_assist: `OpenCurtains` is no longer required``"""
-    return f"{rule_text(change)}: {effect_text(change)}"
+    return joined(": ", [rule_text(change), effect_text(change)])
 
 
 def rule_text(change: Change) -> str:
     old, new = change.old_rule, change.new_rule
     if old is None:
-        return f"{new} (new)"
+        return sentence("{rule} (new)", rule=new or "")
     if new is None:
-        return f"{old} (removed)"
-    return new if old == new else f"{new} (was {old})"
+        return sentence("{rule} (removed)", rule=old)
+    return new if old == new else sentence("{rule} (was {old})", rule=new, old=old)
 
 
 def effect_text(change: Change) -> str:
@@ -70,14 +81,31 @@ def effect_text(change: Change) -> str:
     for o in moved:
         times = _when(o), _when(_other_time(change, o) or o)
         now, before = times if o in change.added else times[::-1]
-        role = "forbidden" if o.negated else "required"
-        parts.append(f"{quoted(o.name)} is now {role} {now} (before: {before})")
-    for literals, word in ((change.added, "now"), (change.removed, "no longer")):
-        for negated, role in ((False, "required"), (True, "forbidden")):
+        parts.append(_other_window(o, now, before))
+    for literals, is_added in ((change.added, True), (change.removed, False)):
+        for negated in (False, True):
             names = [_phrase(o) for o in literals if o.negated == negated and o not in moved]
-            parts += [f"{listed(names)} {'is' if len(names) == 1 else 'are'} {word} {role}"] if names else []
+            if names:
+                parts.append(_role(len(names), listed(names), is_added, negated))
     # A change that is both a gain and a loss has the same words twice.
     return listed(dict.fromkeys(parts))
+
+
+def _other_window(obligation: Obligation, now: str, before: str) -> str:
+    name = quoted(obligation.name)
+    if obligation.negated:
+        return sentence("{name} is now forbidden {now} (before: {before})", name=name, now=now, before=before)
+    return sentence("{name} is now required {now} (before: {before})", name=name, now=now, before=before)
+
+
+def _role(number: int, names: str, is_added: bool, negated: bool) -> str:
+    if is_added and negated:
+        return plural(number, "{names} is now forbidden", "{names} are now forbidden", names=names)
+    if is_added:
+        return plural(number, "{names} is now required", "{names} are now required", names=names)
+    if negated:
+        return plural(number, "{names} is no longer forbidden", "{names} are no longer forbidden", names=names)
+    return plural(number, "{names} is no longer required", "{names} are no longer required", names=names)
 
 
 def _other_time(change: Change, obligation: Obligation) -> Obligation | None:
@@ -97,76 +125,102 @@ def _other_time(change: Change, obligation: Obligation) -> Obligation | None:
 
 
 def _when(obligation: Obligation) -> str:
-    return "immediately" if obligation.timing is None else str(obligation.timing)
+    return sentence("immediately") if obligation.timing is None else quoted(str(obligation.timing))
 
 
 def _phrase(obligation: Obligation) -> str:
-    """The name, with its window if it has one."""
-    timing = "" if obligation.timing is None else f" {obligation.timing}"
-    return f"{quoted(obligation.name)}{timing}"
+    """The name with its window, as the rule writes it."""
+    return quoted(in_short(obligation).removeprefix("NOT "))
 
 
 def conflict_in_words(conflict: ConflictChange) -> str:
     """``new conflict: `a` and `b`: `o` is now both required and forbidden``"""
-    head = "new conflict" if conflict.way == "added" else "resolved conflict"
-    return f"{head}: {conflict_rules(conflict)}: {contradiction_text(conflict)}"
+    head = sentence("new conflict") if conflict.way == "added" else sentence("resolved conflict")
+    return joined(": ", [head, conflict_rules(conflict), contradiction_text(conflict)])
 
 
 def timed_conflict_in_words(conflict: TimedConflictChange) -> str:
     """``new conflict: rule `a` and rule `b` contradict each other: `o` is both required and forbidden``"""
-    return f"{'new' if conflict.way == 'added' else 'resolved'} conflict: {conflict.finding.message}"
+    head = sentence("new conflict") if conflict.way == "added" else sentence("resolved conflict")
+    return joined(": ", [head, conflict.finding.message])
 
 
 def conflict_rules(conflict: ConflictChange) -> str:
-    return listed(map(quoted, conflict.rules)) if conflict.rules else "the constraints"
+    return listed(map(quoted, conflict.rules)) if conflict.rules else sentence("the constraints")
 
 
 def contradiction_text(conflict: ConflictChange) -> str:
     names = sorted({o.name for o in conflict.literals})
-    now = "now" if conflict.way == "added" else "no longer"
+    is_new = conflict.way == "added"
     if not names:
-        return f"they are {now} impossible to satisfy"
+        return (
+            sentence("they are now impossible to satisfy")
+            if is_new
+            else sentence("they are no longer impossible to satisfy")
+        )
     if len(names) == 1 and len(conflict.literals) == 2:
-        return f"{quoted(names[0])} is {now} both required and forbidden"
-    return f"{listed(quoted(str(o)) for o in conflict.literals)} {now} contradict each other"
+        name = quoted(names[0])
+        return (
+            sentence("{name} is now both required and forbidden", name=name)
+            if is_new
+            else sentence("{name} is no longer both required and forbidden", name=name)
+        )
+    said = listed(quoted(str(o)) for o in conflict.literals)
+    return (
+        sentence("{names} now contradict each other", names=said)
+        if is_new
+        else sentence("{names} no longer contradict each other", names=said)
+    )
 
 
 def obligation_text(one: DecidingClause) -> str:
-    return " AND ".join(map(in_short, one.obligations)) or "nothing"
+    return " AND ".join(map(in_short, one.obligations)) or sentence("nothing")
 
 
 def deciding_text(one: DecidingClause, ruleset: Ruleset) -> str:
     """``Greet, by rule `visit` (old.sleec:6)``"""
-    name = clause_name(ruleset.by_label[one.rule], one.clause)
-    return f"{obligation_text(one)}, by {name} ({ruleset.source.path}:{ruleset.source.place(one.span).line})"
+    return sentence(
+        "{obligations}, by {clause} ({place})",
+        obligations=obligation_text(one),
+        clause=clause_name(ruleset.by_label[one.rule], one.clause),
+        place=f"{ruleset.source.path}:{ruleset.source.place(one.span).line}",
+    )
 
 
 def witness_text(witness: Witness) -> str:
     """``When only `A` occurs, `C` is true (whatever else holds)``"""
-    occurs = f"When only {occurring(witness.triggers)}" if witness.triggers else "When nothing occurs"
-    return f"{', '.join([occurs, *given(witness.conditions)])} (whatever else holds)"
+    facts = given(witness.conditions)
+    if witness.triggers:
+        said = joined(", ", [occurring(witness.triggers), *facts])
+        return sentence("When only {facts} (whatever else holds)", facts=said)
+    said = joined(", ", [sentence("nothing occurs"), *facts])
+    return sentence("When {facts} (whatever else holds)", facts=said)
 
 
 def extent_text(extent: Extent) -> str:
     """The number of affected situations, and the names by which they differ."""
-    where = f" in which {occurring(extent.given)}" if extent.given else ""
+    where = sentence(" in which {events}", events=occurring(extent.given)) if extent.given else ""
     if extent.affected is None or extent.possible is None:
-        return f"in an unknown number of situations{where}: {extent.why}"
+        return sentence("in an unknown number of situations{where}: {why}", where=where, why=extent.why or "")
     if extent.possible == extent.affected == 1:
-        return f"in every situation{where}"
-    every = (
-        f"all {extent.possible:,}"
-        if extent.affected == extent.possible
-        else f"{extent.affected:,} of {extent.possible:,}"
+        return sentence("in every situation{where}", where=where)
+    over = sentence(" (they differ in {names})", names=listed(map(_variable, extent.over))) if extent.over else ""
+    affected, possible = grouped(extent.affected), grouped(extent.possible)
+    if extent.affected == extent.possible:
+        return sentence("in all {number} situations{where}{over}", number=possible, where=where, over=over)
+    return sentence(
+        "in {number} of {possible} situations{where}{over}",
+        number=affected,
+        possible=possible,
+        where=where,
+        over=over,
     )
-    over = f" (they differ in {listed(map(_variable, extent.over))})" if extent.over else ""
-    return f"in {every} situations{where}{over}"
 
 
 def _variable(variable: Variable) -> str:
     names = listed(quoted(name) for _, name in variable.names)
     if variable.orders:
-        return f"{names} ({variable.ways} orders)"
+        return sentence("{names} ({number} orders)", names=names, number=variable.ways)
     if variable.cuts:
-        return f"{names} ({counted(variable.ways, 'range')})"
-    return names if variable.ways == 2 else f"{names} ({variable.ways} values)"
+        return sentence("{names} ({ranges})", names=names, ranges=counted(variable.ways, "range"))
+    return names if variable.ways == 2 else sentence("{names} ({number} values)", names=names, number=variable.ways)

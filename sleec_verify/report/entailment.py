@@ -9,7 +9,8 @@ from sleec_runtime.model import Assume
 from sleec_verify.report.consequence_tree import lines
 from sleec_verify.report.escape import as_text
 from sleec_verify.report.full import finding_lines
-from sleec_verify.results.phrases import listed, quoted, value_text
+from sleec_verify.wording.phrases import listed, quoted, value_text
+from sleec_verify.wording.sentence import joined, plural, sentence
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Relation, Ruleset
@@ -24,19 +25,22 @@ def _full(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palet
         yield from finding_lines(finding, source, palette)
         yield ""
     if answer.consistent:
-        yield f"{palette('strong', 'required')}: {', '.join(answer.obligations) or 'nothing'}"
+        required = joined(", ", answer.obligations) or sentence("nothing")
+        yield joined(": ", [palette("strong", sentence("required")), required])
         if answer.prohibitions:
-            yield f"{palette('strong', 'forbidden')}: {', '.join(answer.prohibitions)}"
+            forbidden = joined(", ", answer.prohibitions)
+            yield joined(": ", [palette("strong", sentence("forbidden")), forbidden])
     else:
-        yield f"{palette('error', 'The rules contradict each other here')}, so no obligations are listed."
+        where = palette("error", sentence("The rules contradict each other here"))
+        yield sentence("{where}, so no obligations are listed.", where=where)
     for because in answer.because:
         line = source.place(because.span).line
-        says = " AND ".join(because.in_words()) or "nothing"
-        yield f"  {because.layer or because.rule} ({source.path}:{line}): {says}"
+        says = joined(" AND ", because.in_words()) or sentence("nothing")
+        yield joined("", [f"  {because.layer or because.rule} ({source.path}:{line}): ", says])
     yield from once_done(answer, palette)
     yield from scheduled(answer, context, palette)
     yield from caveats(ruleset, answer, palette)
-    yield f"reading: {ruleset.reading}"
+    yield sentence("reading: {reading}", reading=ruleset.reading)
 
 
 def _concise(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palette) -> Iterator[str]:
@@ -92,7 +96,7 @@ def _json(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palet
 def once_done(answer: Entailment, palette: Palette) -> Iterator[str]:
     """The consequences of doing what is required, if there are any."""
     if answer.chain:
-        yield f"{palette('strong', 'consequences')}:"
+        yield joined("", [palette("strong", sentence("consequences")), ":"])
         yield from lines(answer.chain)
 
 
@@ -102,8 +106,8 @@ def scheduled(answer: Entailment, context: Context, palette: Palette) -> Iterato
         return
     from sleec_verify.report.schedule import chart, in_words
 
-    yield f"{palette('strong', 'schedule')}:"
-    yield from (f"  {line}" for line in in_words(answer.schedule))
+    yield joined("", [palette("strong", sentence("schedule")), ":"])
+    yield from (joined("  ", ["", line]) for line in in_words(answer.schedule))
     yield from (f"    {line}" for line in chart(answer.schedule, context))
 
 
@@ -134,38 +138,59 @@ def _chain_json(steps: tuple[ConsequenceStep, ...]) -> Json:
 
 def caveats(ruleset: Ruleset, answer: Entailment, palette: Palette) -> Iterator[str]:
     """Warnings about the situation: it is excluded by an assumption, or some of its values are not given."""
+    for role, text in _caveats(ruleset, answer):
+        title = {"warning": sentence("warning"), "note": sentence("note"), "help": sentence("help")}[role]
+        yield joined(": ", [palette(role, title), text])
+
+
+def _caveats(ruleset: Ruleset, answer: Entailment) -> Iterator[tuple[str, str]]:
     with_these = listed(_as_given(answer)) if answer.possible else ""
     if answer.broken_assumptions:
         by = _named(ruleset, answer.broken_assumptions)
-        yield f"{palette('warning', 'warning')}: this situation is excluded by {by}; checks ignore it"
+        yield "warning", sentence("this situation is excluded by {statements}; checks ignore it", statements=by)
         if answer.possible:
-            yield f"{palette('help', 'help')}: names that are not given count as false; add {with_these}"
+            yield "help", sentence("names that are not given count as false; add {values}", values=with_these)
     elif answer.unsettled:
         names = [quoted(name) for name, _ in answer.possible]
-        are, them = ("is", "it") if len(names) == 1 else ("are", "them")
-        by = _named(ruleset, answer.unsettled)
         yield (
-            f"{palette('warning', 'warning')}: {listed(names)} {are} not given; if every comparison with {them} is "
-            f"false, this situation is excluded by {by}"
+            "warning",
+            plural(
+                len(names),
+                "{names} is not given; if every comparison with it is false, this situation is excluded by "
+                "{statements}",
+                "{names} are not given; if every comparison with them is false, this situation is excluded by "
+                "{statements}",
+                names=listed(names),
+                statements=_named(ruleset, answer.unsettled),
+            ),
         )
-        yield f"{palette('help', 'help')}: give {them}, for example {with_these}"
+        yield (
+            "help",
+            plural(len(names), "give it, for example {values}", "give them, for example {values}", values=with_these),
+        )
     for event, forbidding in answer.at_odds:
-        by = listed(map(quoted, forbidding))
-        yield f"{palette('warning', 'warning')}: {quoted(event)} occurs, but {by} {_forbids(forbidding)} it"
-    if answer.timed:
         yield (
-            f"{palette('note', 'note')}: `entail` does not look for conflicts at later times; `sleec-verify check` does"
+            "warning",
+            plural(
+                len(forbidding),
+                "{event} occurs, but {clauses} forbids it",
+                "{event} occurs, but {clauses} forbid it",
+                event=quoted(event),
+                clauses=listed(map(quoted, forbidding)),
+            ),
         )
+    if answer.timed:
+        yield "note", sentence("`entail` does not look for conflicts at later times; `sleec-verify check` does")
     if answer.missing:
         yield (
-            f"{palette('note', 'note')}: {listed(map(quoted, answer.missing))} "
-            f"{'is' if len(answer.missing) == 1 else 'are'} not given, so every comparison with "
-            f"{'it' if len(answer.missing) == 1 else 'them'} counts as false"
+            "note",
+            plural(
+                len(answer.missing),
+                "{names} is not given, so every comparison with it counts as false",
+                "{names} are not given, so every comparison with them counts as false",
+                names=listed(map(quoted, answer.missing)),
+            ),
         )
-
-
-def _forbids(by: Sequence[str]) -> str:
-    return "forbids" if len(by) == 1 else "forbid"
 
 
 def _named(ruleset: Ruleset, said: Sequence[Assume | Relation]) -> str:
@@ -174,7 +199,10 @@ def _named(ruleset: Ruleset, said: Sequence[Assume | Relation]) -> str:
     for law in said:
         kind = "ASSUME" if isinstance(law, Assume) else "RELATION"
         laws.setdefault(kind, []).append(str(ruleset.source.place(law.span).line))
-    return listed(f"{kind} (line{'s' if len(lines) > 1 else ''} {listed(lines)})" for kind, lines in laws.items())
+    return listed(
+        plural(len(lines), "{keyword} (line {lines})", "{keyword} (lines {lines})", keyword=kind, lines=listed(lines))
+        for kind, lines in laws.items()
+    )
 
 
 def _as_given(answer: Entailment) -> list[str]:

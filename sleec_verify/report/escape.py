@@ -11,8 +11,9 @@ from functools import wraps
 from typing import TypeVar
 
 from sleec_runtime.support.messages import escaped
-from sleec_verify.report.palette import painted
+from sleec_verify.report.palette import Palette, painted
 from sleec_verify.results.ci_commands import without_commands
+from sleec_verify.wording.translation import Language, translated
 
 _Arguments = TypeVar("_Arguments", bound=Callable[..., Iterator[str]])
 
@@ -23,11 +24,12 @@ def as_line(text: str) -> str:
 
 
 def as_text(render: _Arguments) -> _Arguments:
-    """Turn a renderer of unescaped lines into a renderer of text."""
+    """Turn a renderer of unescaped lines into a renderer of text, in the language of its palette."""
 
     @wraps(render)
     def text(*arguments: object) -> Iterator[str]:
-        return (f"{as_line(line)}\n" for line in render(*arguments))
+        language: Language = next((one.language for one in arguments if isinstance(one, Palette)), "en")
+        return (f"{as_line(translated(line, language))}\n" for line in render(*arguments))
 
     return text  # type: ignore[return-value]
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from sleec_verify.report.escape import in_one_column
+from sleec_verify.wording.sentence import joined
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Source, Span
@@ -57,8 +58,9 @@ def excerpt(source: Source, marks: Sequence[Mark], palette: Palette) -> Iterator
         for start, end, mark, last in here:
             pad = " " * _columns(_shown(line[:start], left))
             width = max(1, min(_columns(in_one_column(line[start:end])), _WIDTH - len(pad)))
-            word = f" {mark.word}" if mark.word and last else ""
-            yield f"{blank} {pad}{palette(mark.role, ('^' if mark.main else '-') * width + word)}"
+            line = ("^" if mark.main else "-") * width
+            words = joined(" ", [line, mark.word]) if mark.word and last else line
+            yield joined("", [f"{blank} {pad}", palette(mark.role, words)])
 
 
 def _lines_of(source: Source, mark: Mark) -> Iterator[tuple[int, _Stretch]]:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from sleec_verify.report.entailment import caveats, once_done, scheduled
 from sleec_verify.report.escape import as_text
 from sleec_verify.report.full import finding_lines
-from sleec_verify.results.phrases import context_text, counted, exception, listed, quoted, value_text
+from sleec_verify.wording.phrases import context_text, counted, exception, has_value, listed, quoted, value_words
+from sleec_verify.wording.sentence import joined, plural, sentence
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context, Formula, Rule, Ruleset, Span
@@ -21,69 +22,103 @@ def render(ruleset: Ruleset, context: Context, answer: Entailment, palette: Pale
     """The situation, a paragraph for each triggered rule, and the result."""
     source = ruleset.source
     size = counted(len(ruleset.rules), "rule")
-    yield f"{context_text(context)}, according to the {size} in {source.path} (reading {ruleset.reading}):"
+    yield sentence(
+        "{situation}, according to the {size} in {path} (reading {reading}):",
+        situation=context_text(context),
+        size=size,
+        path=source.path,
+        reading=ruleset.reading,
+    )
     yield ""
     decided = {because.rule: because for because in answer.because}
     triggered = [rule for rule in ruleset.rules if rule.trigger in context.triggers]
     for rule in triggered:
         if rule.label in decided:
-            yield from _decided(ruleset, context, decided[rule.label], palette)
+            yield from decided_lines(ruleset, context, decided[rule.label], palette)
         else:
             assert rule.guard is not None, "a rule without a guard decides whenever it is triggered"
-            yield from _guarded(ruleset, context, rule, rule.guard, palette)
+            yield from guarded_lines(ruleset, context, rule, rule.guard, palette)
     if not triggered:
-        yield from ("No rule is triggered.", "")
+        yield from (sentence("No rule is triggered."), "")
     for finding in answer.conflicts:
         yield from finding_lines(finding, source, palette)
         yield ""
     if answer.consequences:
-        yield "From the constraints alone (no rule says so, so the robot does not act on it):"
+        yield sentence("From the constraints alone (no rule says so, so the robot does not act on it):")
         yield from (_consequence(ruleset, consequence) for consequence in answer.consequences)
         yield ""
     yield from once_done(answer, palette)
     yield from scheduled(answer, context, palette)
     yield from caveats(ruleset, answer, palette)
-    yield _in_all(answer, palette)
+    yield result_line(answer, palette)
 
 
-def _decided(ruleset: Ruleset, context: Context, because: ActiveClause, palette: Palette) -> Iterator[str]:
+def decided_lines(ruleset: Ruleset, context: Context, because: ActiveClause, palette: Palette) -> Iterator[str]:
+    """The clause that decides in a rule, the reasons in a line each, and a blank line."""
     rule = ruleset.by_label[because.rule]
-    head = f"{quoted(rule.trigger)} triggers rule {palette('strong', quoted(rule.label))}"
+    head = sentence(
+        "{trigger} triggers rule {rule}", trigger=quoted(rule.trigger), rule=palette("strong", quoted(rule.label))
+    )
     if because.clause:
         hedge = list(rule.clauses())[because.clause]
-        head = f"{head}, and {exception(hedge)} ({because.layer}) applies"
+        head = sentence(
+            "{head}, and {exception} ({layer}) applies",
+            head=head,
+            exception=exception(hedge),
+            layer=because.layer or "",
+        )
     elif rule.hedges or rule.default.hedges:
-        head = f"{head}, and no exception applies"
-    yield f"{head}: {_due(because.in_words())} ({_at(ruleset, because.span)})."
+        head = sentence("{head}, and no exception applies", head=head)
+    yield sentence(
+        "{head}: {due} ({place}).", head=head, due=due_text(because.in_words()), place=_at(ruleset, because.span)
+    )
     for position, decision in enumerate(because.decisions):
-        yield f"    {'because' if position == 0 else 'and'} {_truth(ruleset, context, decision)}"
+        truth = truth_text(ruleset, context, _spelled(decision.formula), decision)
+        yield (
+            sentence("    because {truth}", truth=truth) if position == 0 else sentence("    and {truth}", truth=truth)
+        )
     yield ""
 
 
-def _due(obligations: tuple[str, ...]) -> str:
+def due_text(obligations: tuple[str, ...]) -> str:
+    """```Open` is required and `Wait` is forbidden``"""
     due = [quoted(name) for name in obligations if not name.startswith("NOT ")]
     forbidden = [quoted(name[4:]) for name in obligations if name.startswith("NOT ")]
     parts = []
     if due:
-        parts.append(f"{listed(due)} {'is' if len(due) == 1 else 'are'} required")
+        parts.append(plural(len(due), "{names} is required", "{names} are required", names=listed(due)))
     if forbidden:
-        parts.append(f"{listed(forbidden)} {'is' if len(forbidden) == 1 else 'are'} forbidden")
-    return " and ".join(parts) or "nothing is required"
+        parts.append(plural(len(forbidden), "{names} is forbidden", "{names} are forbidden", names=listed(forbidden)))
+    return listed(parts) if parts else sentence("nothing is required")
 
 
-def _truth(ruleset: Ruleset, context: Context, decision: ConditionValue) -> str:
-    value = "true" if decision.truth else "false"
-    return (
-        f"{_spelled(decision.formula)} is {value}"
-        f"{_values(ruleset, context, decision.formula)} ({_at(ruleset, decision.span)})"
+def truth_text(ruleset: Ruleset, context: Context, words: str, decision: ConditionValue) -> str:
+    """The truth of a condition, with the values of its names and its line. `words` is the condition, as the reader sees
+    it."""
+    return sentence(
+        "{formula} is {value}{values} ({place})",
+        formula=words,
+        value=value_words(decision.truth),
+        values=_values(ruleset, context, decision.formula),
+        place=_at(ruleset, decision.span),
     )
 
 
-def _guarded(ruleset: Ruleset, context: Context, rule: Rule, guard: Formula, palette: Palette) -> Iterator[str]:
+def guarded_lines(ruleset: Ruleset, context: Context, rule: Rule, guard: Formula, palette: Palette) -> Iterator[str]:
+    """Why a rule whose guard is false requires nothing, and a blank line."""
     name = palette("strong", quoted(rule.label))
-    yield f"{quoted(rule.trigger)} triggers rule {name}, but its condition is false: nothing is required."
+    yield sentence(
+        "{trigger} triggers rule {rule}, but its condition is false: nothing is required.",
+        trigger=quoted(rule.trigger),
+        rule=name,
+    )
     values = _values(ruleset, context, guard)
-    yield f"    because {_spelled(guard)} is false{values} ({_at(ruleset, guard.span)})"
+    yield sentence(
+        "    because {guard} is false{values} ({place})",
+        guard=_spelled(guard),
+        values=values,
+        place=_at(ruleset, guard.span),
+    )
     yield ""
 
 
@@ -104,18 +139,26 @@ def _values(ruleset: Ruleset, context: Context, formula: Formula) -> str:
         if isinstance(leaf, Comparison):
             for measure in measures_of(leaf):
                 given = context.conditions.get(measure)
-                worth[measure] = "is not given" if given is None else f"is {value_text(given)}"
+                worth[measure] = (
+                    sentence("{name} is not given", name=quoted(measure))
+                    if given is None
+                    else has_value(measure, given)
+                )
         else:
-            worth[leaf.name] = f"is {value_text(context.conditions.get(leaf.name, False))}"
-    said = [f"{quoted(name)} {what}" for name, what in worth.items()]
-    return f", as {listed(said)}" if said else ""
+            worth[leaf.name] = has_value(leaf.name, context.conditions.get(leaf.name, False))
+    return sentence(", as {facts}", facts=listed(worth.values())) if worth else ""
 
 
 def _consequence(ruleset: Ruleset, consequence: Consequence) -> str:
     literal = consequence.literal
-    role = "forbidden" if literal.negated else "required"
-    origins = [f"{quoted(_text(ruleset, origin.span))} ({_at(ruleset, origin.span)})" for origin in consequence.origins]
-    return f"    {quoted(literal.name)} is {role} by {listed(origins)}"
+    name = quoted(literal.name)
+    origins = [
+        sentence("{text} ({place})", text=quoted(_text(ruleset, origin.span)), place=_at(ruleset, origin.span))
+        for origin in consequence.origins
+    ]
+    if literal.negated:
+        return sentence("    {name} is forbidden by {origins}", name=name, origins=listed(origins))
+    return sentence("    {name} is required by {origins}", name=name, origins=listed(origins))
 
 
 def _text(ruleset: Ruleset, span: Span) -> str:
@@ -123,13 +166,24 @@ def _text(ruleset: Ruleset, span: Span) -> str:
 
 
 def _at(ruleset: Ruleset, span: Span) -> str:
-    return f"line {ruleset.source.place(span).line}"
+    return sentence("line {line}", line=ruleset.source.place(span).line)
 
 
-def _in_all(answer: Entailment, palette: Palette) -> str:
+def result_line(answer: Entailment, palette: Palette) -> str:
+    """What all rules together require."""
     if not answer.consistent:
         conflicts = counted(len(answer.conflicts), "conflict")
-        where = palette("error", "The rules contradict each other here")
-        return f"{where} ({conflicts}), so no obligations are listed."
-    forbidden = f"; forbidden: {', '.join(answer.prohibitions)}" if answer.prohibitions else ""
-    return f"{palette('strong', 'Required')}: {', '.join(answer.obligations) or 'nothing'}{forbidden}"
+        where = palette("error", sentence("The rules contradict each other here"))
+        return sentence("{where} ({conflicts}), so no obligations are listed.", where=where, conflicts=conflicts)
+    forbidden = (
+        sentence("; forbidden: {prohibitions}", prohibitions=joined(", ", answer.prohibitions))
+        if answer.prohibitions
+        else ""
+    )
+    required = joined(", ", answer.obligations) if answer.obligations else sentence("nothing")
+    return sentence(
+        "{heading}: {obligations}{forbidden}",
+        heading=palette("strong", sentence("Required")),
+        obligations=required,
+        forbidden=forbidden,
+    )

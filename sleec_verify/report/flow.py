@@ -6,7 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from sleec_runtime.model import Atom, Exclusive, formulas_of, leaves, measures_of
-from sleec_verify.results.phrases import clause_name, quoted, value_text
+from sleec_verify.wording.phrases import clause_name, has_value, occurring, quoted
+from sleec_verify.wording.sentence import joined, sentence
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Formula, Ruleset, Source, Span, Value
@@ -54,29 +55,35 @@ def steps(ruleset: Ruleset, finding: Finding) -> list[Step]:
 
 
 def _of_moment(ruleset: Ruleset, finding: Finding, moment: Moment, number: int) -> Iterator[Step]:
-    from sleec_verify.report.timeline import duration, says
+    from sleec_verify.report.timeline import says
+    from sleec_verify.wording.times import duration
 
-    when = "at first, " if number == 1 else f"after {duration(moment.time)}, "
+    when = sentence("at first, ") if number == 1 else sentence("after {time}, ", time=duration(moment.time))
     told = {name: moment.conditions[name] for name in moment.telling}
     for step in _happening(ruleset, finding, moment.events, told):
-        yield step._replace(words=when + step.words, moment=number)
+        yield step._replace(words=joined("", [when, step.words]), moment=number)
     for due in moment.due:
         span = list(ruleset.by_label[due.rule].clauses())[due.clause].span
         if due.overdue:
-            words = f"after {duration(due.start)}, instead of {quoted(due.instead_of or '')}, {says(due)}"
+            words = sentence(
+                "after {time}, instead of {response}, {demand}",
+                time=duration(due.start),
+                response=quoted(due.instead_of or ""),
+                demand=says(due),
+            )
             yield Step(ruleset.source, span, words, {}, number)
         elif due.instead_of is None:
-            yield Step(ruleset.source, span, f"{when}{says(due)}", {}, number)
+            yield Step(ruleset.source, span, joined("", [when, says(due)]), {}, number)
 
 
 def _of_strategy(ruleset: Ruleset, finding: Finding, strategy: Strategy, number: int = 1) -> Iterator[Step]:
     """The acts of the environment, along the first branch of each."""
-    from sleec_verify.report.timeline import duration
+    from sleec_verify.wording.times import duration
 
     act = strategy.act
-    when = "at first, " if number == 1 else f"after {duration(act.time)}, "
+    when = sentence("at first, ") if number == 1 else sentence("after {time}, ", time=duration(act.time))
     for step in _happening(ruleset, finding, act.events, act.conditions):
-        yield step._replace(words=when + step.words, moment=number)
+        yield step._replace(words=joined("", [when, step.words]), moment=number)
     for branch in strategy.branches[:1]:
         yield from _of_strategy(ruleset, finding, branch.then, number + 1)
 
@@ -93,9 +100,15 @@ def _happening(
         # Constraints and assumptions contain the other names.
         told = {**_places(c.formula for c in ruleset.constraints if not isinstance(c, Exclusive)), **told}
     for trigger in triggers:
-        yield _step(ruleset, finding, told.get(trigger), f"{quoted(trigger)} occurs", {trigger: True})
+        yield _step(ruleset, finding, told.get(trigger), occurring([trigger]), {trigger: True})
     for name, value in conditions.items():
-        yield _step(ruleset, finding, told.get(name), f"{quoted(name)} is {value_text(value)}", {name: value})
+        yield _step(
+            ruleset,
+            finding,
+            told.get(name),
+            has_value(name, value),
+            {name: value},
+        )
 
 
 def _step(ruleset: Ruleset, finding: Finding, span: Span | None, words: str, state: Mapping[str, Value]) -> Step:
@@ -121,5 +134,9 @@ def _clauses(ruleset: Ruleset, finding: Finding) -> Iterator[Step]:
     for label, number in finding.clauses:
         rule = ruleset.by_label[label]
         clause = list(rule.clauses())[number]
-        due = quoted(" AND ".join(map(obligation_text, clause.obligations))) if clause.obligations else "nothing"
-        yield Step(ruleset.source, clause.span, f"{clause_name(rule, number)}: {due}", {})
+        due = (
+            quoted(" AND ".join(map(obligation_text, clause.obligations)))
+            if clause.obligations
+            else sentence("nothing")
+        )
+        yield Step(ruleset.source, clause.span, joined(": ", [clause_name(rule, number), due]), {})

@@ -8,9 +8,17 @@ from typing import TYPE_CHECKING
 from sleec_verify.report.details import details
 from sleec_verify.report.escape import as_text
 from sleec_verify.report.excerpt import Mark, excerpt
-from sleec_verify.report.outcome import CheckedRuleset, Outcome, UnusableInput, deduplicated_findings, tally
+from sleec_verify.report.outcome import (
+    CheckedRuleset,
+    Outcome,
+    UnusableInput,
+    deduplicated_findings,
+    severity_count,
+    tally,
+)
 from sleec_verify.results.finding import SEVERITIES
-from sleec_verify.results.phrases import counted, error_summary
+from sleec_verify.wording.phrases import counted, error_summary
+from sleec_verify.wording.sentence import joined, plural, sentence
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
@@ -26,7 +34,8 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
     """The findings of each ruleset and a summary line; if there are several rulesets, a summary of all at the end."""
     for outcome in outcomes:
         if isinstance(outcome, UnusableInput):
-            yield f"{outcome.path}: {palette('error', 'unusable')}: {error_summary(outcome.error)}"
+            unusable = palette("error", sentence("unusable"))
+            yield joined(": ", [outcome.path, unusable, error_summary(outcome.error)])
             continue
         source = outcome.ruleset.source
         for finding in outcome.deduplicated:
@@ -36,11 +45,16 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
             yield from (f"{source.path}: {palette('note', f'note[{name}]')} {why}", "")
         for name, why in outcome.undecided:
             yield from (f"{source.path}: {palette('unknown', f'unknown[{name}]')} {why}", "")
+        if outcome.audit is not None:
+            from sleec_verify.report import audit
+
+            yield from audit.lines(outcome.audit, outcome.ruleset)
         yield _on(outcome, palette)
     if len(outcomes) > 1:
-        unusable = sum(isinstance(outcome, UnusableInput) for outcome in outcomes)
-        more = f", {unusable} unusable" if unusable else ""
-        yield f"{counted(len(outcomes), 'ruleset')}: {_counts(outcomes)}{more}"
+        parts = [_counts(outcomes)]
+        failed = sum(isinstance(outcome, UnusableInput) for outcome in outcomes)
+        parts += [sentence("{number} unusable", number=failed)] if failed else []
+        yield joined(": ", [counted(len(outcomes), "ruleset"), joined(", ", parts)])
 
 
 def finding_lines(
@@ -49,28 +63,34 @@ def finding_lines(
     """The lines of one finding, with its repairs if somebody asked for them, without the blank line after it."""
     place = source.place(finding.span)
     label = palette(finding.severity, f"{finding.severity}[{finding.code}]")
-    yield f"{source.path}:{place.line}:{place.column}: {label} {palette('strong', finding.message)}"
+    yield joined(" ", [f"{source.path}:{place.line}:{place.column}:", label, palette("strong", finding.message)])
     marks = [Mark(finding.span, finding.severity, main=True)]
     marks += (Mark(span, "help", word) for span, word in finding.related)
-    yield from excerpt(source, marks, palette)
+    if source.text:
+        yield from excerpt(source, marks, palette)
     margin = " " * len(str(max(source.place(mark.span).end_line for mark in marks)))
     for title, text, lines in details(finding, chart=True):
-        shown = palette("help" if title == "help" else "strong", title)
-        yield f"{margin} = {shown}: {text}" if text else f"{margin} = {shown}:"
-        yield from (f"{margin}     {line}" for line in lines)
+        shown = joined("", [f"{margin} = ", palette("help" if title == "help" else "strong", title), ":"])
+        yield joined(" ", [shown, text]) if text else shown
+        yield from (joined("     ", [margin, line]) for line in lines)
     if repairs is not None:
-        yield f"{margin} = {palette('help', 'repairs')}:{'' if repairs.repairs or repairs.undecided else ' none found'}"
-        yield from (f"{margin}     {line}" for line in _repair_lines(repairs, palette))
+        title = joined("", [f"{margin} = ", palette("help", sentence("repairs")), ":"])
+        yield title if repairs.repairs or repairs.undecided else joined(" ", [title, sentence("none found")])
+        yield from (joined("     ", [margin, line]) for line in _repair_lines(repairs, palette))
 
 
 def _repair_lines(found: FindingRepairs, palette: Palette) -> Iterator[str]:
     from sleec_verify.report.repair_phrases import effect_in_words
 
     for identifier, repair in found.repairs:
-        yield f"{palette('strong', identifier)} {repair.candidate.title}"
-        yield f"{' ' * len(identifier)} {palette('faint', effect_in_words(repair))}"
+        yield joined(" ", [palette("strong", identifier), repair.candidate.title])
+        yield joined(" ", [" " * len(identifier), palette("faint", effect_in_words(repair))])
     if found.undecided is not None:
-        yield f"{palette('unknown', 'unknown')} There may be more: {found.undecided}"
+        yield sentence(
+            "{unknown} There may be more: {reason}",
+            unknown=palette("unknown", sentence("unknown")),
+            reason=found.undecided,
+        )
 
 
 def error_lines(error: SleecError, palette: Palette) -> Iterator[str]:
@@ -95,18 +115,30 @@ def error_lines(error: SleecError, palette: Palette) -> Iterator[str]:
 
 def _on(outcome: CheckedRuleset, palette: Palette) -> str:
     ruleset = outcome.ruleset
-    size = f"{counted(len(ruleset.rules), 'rule')}, {counted(outcome.hedges, 'exception')}"
+    size = joined(", ", [counted(len(ruleset.rules), "rule"), counted(outcome.hedges, "exception")])
     if outcome.undecided:
-        verdict = palette("unknown", f"{_counts([outcome])}, {len(outcome.undecided)} unknown")
+        unknown = sentence("{number} unknown", number=len(outcome.undecided))
+        verdict = palette("unknown", joined(", ", [_counts([outcome]), unknown]))
     elif outcome.findings:
         verdict = palette(_gravest(outcome), _counts([outcome]))
     else:
-        verdict = palette("good", f"{counted(len(outcome.results), 'check')} passed")
-    due = f"; responses without a window: {_DUE[outcome.untimed]}" if outcome.untimed is not None else ""
-    return f"{ruleset.source.path}: {verdict} (reading {ruleset.reading}; {size}{due})"
+        passed = plural(len(outcome.results), "{number} check passed", "{number} checks passed")
+        verdict = palette("good", passed)
+    due = _DUE[outcome.untimed] if outcome.untimed is not None else ""
+    return sentence(
+        "{path}: {verdict} (reading {reading}; {size}{due})",
+        path=ruleset.source.path,
+        verdict=verdict,
+        reading=ruleset.reading,
+        size=size,
+        due=due,
+    )
 
 
-_DUE: Mapping[Untimed, str] = {"at": "immediately", "eventually": "eventually"}
+_DUE: Mapping[Untimed, str] = {
+    "at": sentence("; responses without a window: immediately"),
+    "eventually": sentence("; responses without a window: eventually"),
+}
 
 
 def _gravest(outcome: CheckedRuleset) -> str:
@@ -114,4 +146,5 @@ def _gravest(outcome: CheckedRuleset) -> str:
 
 
 def _counts(outcomes: Sequence[Outcome]) -> str:
-    return ", ".join(counted(number, severity) for severity, number in tally(deduplicated_findings(outcomes)).items())
+    found = tally(deduplicated_findings(outcomes)).items()
+    return joined(", ", (severity_count(number, severity) for severity, number in found))

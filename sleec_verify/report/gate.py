@@ -16,7 +16,7 @@ from sleec_verify.report.difference_phrases import (
 )
 from sleec_verify.report.escape import as_line, as_text
 from sleec_verify.results.deduplication import deduplicate
-from sleec_verify.results.phrases import counted, error_summary, in_domains, in_short, listed
+from sleec_verify.wording.phrases import counted, error_summary, in_domains, in_short, listed
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError

@@ -35,6 +35,11 @@ def _ruleset(outcome: Outcome) -> Json:
     if isinstance(outcome, UnusableInput):
         return {"path": outcome.path, "error": error_json(outcome.error)}
     ruleset = outcome.ruleset
+    audited: dict[str, Json] = {}
+    if outcome.audit is not None:
+        from sleec_verify.report.audit import json_of
+
+        audited = {"audit": json_of(outcome.audit, ruleset)}
     return {
         "path": ruleset.source.path,
         "sha256": ruleset.source.sha256,
@@ -45,6 +50,7 @@ def _ruleset(outcome: Outcome) -> Json:
         "hedges": outcome.hedges,
         "checks": [_check(result) for result in outcome.results],
         "findings": [_finding(finding, outcome) for finding in outcome.findings],
+        **audited,
     }
 
 

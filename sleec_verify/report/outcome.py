@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING, NamedTuple, Union
 
 from sleec_verify.results.deduplication import deduplicate
 from sleec_verify.results.finding import SEVERITIES, Unknown
-from sleec_verify.results.phrases import counted
+from sleec_verify.wording.phrases import counted
+from sleec_verify.wording.sentence import joined, sentence
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_runtime.model import Ruleset
+    from sleec_verify.audit.mission_result import AuditSummary
     from sleec_verify.encoding.trace_scope import Untimed
     from sleec_verify.repairs.numbering import FindingRepairs
     from sleec_verify.results.finding import CheckResult, Finding, Severity
@@ -20,13 +22,14 @@ if TYPE_CHECKING:
 class CheckedRuleset(NamedTuple):
     """A ruleset and the results of its checks, in order. `untimed` is the meaning of a response without a window; None
     for rules without time. `settings`: it is a settings file, and the ruleset only holds its path. `repairs` are those
-    of the findings in `deduplicated`; None if nobody asked for them."""
+    of the findings in `deduplicated`; None if nobody asked for them. `audit` is the summary of audited missions."""
 
     ruleset: Ruleset
     results: tuple[CheckResult, ...]
     untimed: Untimed | None = None
     settings: bool = False
     repairs: tuple[FindingRepairs, ...] | None = None
+    audit: AuditSummary | None = None
 
     def repairs_of(self, finding: Finding) -> FindingRepairs | None:
         """The repairs of a finding; None if nobody asked for them, or if another finding stands for this one."""
@@ -95,11 +98,23 @@ def deduplicated_findings(outcomes: Sequence[Outcome]) -> list[Finding]:
     return [finding for outcome in checked(outcomes) for finding in outcome.deduplicated]
 
 
+def severity_count(number: int, severity: Severity) -> str:
+    """``1 error``, ``no warnings``"""
+    words: dict[Severity, str] = {
+        "error": counted(number, "error"),
+        "warning": counted(number, "warning"),
+        "note": counted(number, "note"),
+    }
+    return words[severity]
+
+
 def in_short(outcomes: Sequence[Outcome]) -> str:
     """``2 rulesets: 1 error, no warnings, no notes, 1 unknown, 1 unusable``; the last two only if they are not 0."""
-    parts = [counted(number, severity) for severity, number in tally(deduplicated_findings(outcomes)).items()]
+    found = tally(deduplicated_findings(outcomes)).items()
+    parts = [severity_count(number, severity) for severity, number in found]
     undecided = sum(len(outcome.undecided) for outcome in checked(outcomes))
     unusable = sum(isinstance(outcome, UnusableInput) for outcome in outcomes)
-    parts += [f"{number} {word}" for number, word in ((undecided, "unknown"), (unusable, "unusable")) if number]
+    parts += [sentence("{number} unknown", number=undecided)] if undecided else []
+    parts += [sentence("{number} unusable", number=unusable)] if unusable else []
     rulesets = sum(not (isinstance(outcome, CheckedRuleset) and outcome.settings) for outcome in outcomes)
-    return f"{counted(rulesets, 'ruleset')}: {', '.join(parts)}"
+    return joined(": ", [counted(rulesets, "ruleset"), joined(", ", parts)])

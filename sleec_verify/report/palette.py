@@ -5,6 +5,9 @@ from __future__ import annotations
 import os
 from typing import TextIO
 
+from sleec_verify.wording.sentence import joined
+from sleec_verify.wording.translation import Language
+
 _CODES = {
     "error": "1;31",
     "warning": "1;33",
@@ -29,18 +32,20 @@ def painted(line: str) -> str:
 class Palette:
     """Colours words by their role, or leaves them plain."""
 
-    def __init__(self, coloured: bool) -> None:
+    def __init__(self, coloured: bool, language: Language = "en") -> None:
+        """`language` is the language of the text that is shown."""
         self._coloured = coloured
+        self.language = language
 
     @classmethod
-    def of(cls, stream: TextIO) -> Palette:
+    def of(cls, stream: TextIO, language: Language = "en") -> Palette:
         """Colours if `stream` is a terminal that can show them, and NO_COLOR is not set (https://no-color.org)."""
         wanted = not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
-        return cls(wanted and stream.isatty())
+        return cls(wanted and stream.isatty(), language)
 
     def __call__(self, role: str, text: str) -> str:
         """`text` in the colour of `role` (a severity, or good, strong, faint, help, unknown), for `painted`."""
-        return f"{_MARK}{_CODES[role]}m{text}{_MARK}0m" if self._coloured and text else text
+        return joined("", [f"{_MARK}{_CODES[role]}m", text, f"{_MARK}0m"]) if self._coloured and text else text
 
 
 PLAIN = Palette(coloured=False)

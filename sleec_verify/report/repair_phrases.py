@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from sleec_verify.report.difference_phrases import effect_text, extent_text
-from sleec_verify.results.phrases import counted, in_short, listed, quoted
+from sleec_verify.wording.phrases import counted, grouped, in_short, listed, quoted
+from sleec_verify.wording.sentence import joined, plural, sentence
 
 if TYPE_CHECKING:
     from sleec_verify.changes.compare import ConflictChange, Difference, Extent
@@ -24,19 +25,19 @@ def effect_in_words(repair: Repair) -> str:
     found = repair.effect.difference
     is_conflict = repair.finding.check in _CONFLICTS
     if repair.effect.keeps_meaning and not is_conflict:
-        return "the rules mean the same"
+        return sentence("the rules mean the same")
     parts = list(_resolved(repair))
     changes = list(_changes(found))
     if is_conflict and not parts and not changes:
-        parts.append("the conflict is resolved")
+        parts.append(sentence("the conflict is resolved"))
     parts += changes[:_MOST_CHANGES]
     if len(changes) > _MOST_CHANGES:
         parts.append(counted(len(changes) - _MOST_CHANGES, "more change"))
     if found.undecided:
-        parts.append(f"the rest of the effect is unknown: {found.undecided[0].why}")
+        parts.append(sentence("the rest of the effect is unknown: {why}", why=found.undecided[0].why))
     elif not changes:
-        parts.append("nothing else changes")
-    return "; ".join(parts)
+        parts.append(sentence("nothing else changes"))
+    return joined("; ", parts)
 
 
 def _resolved(repair: Repair) -> Iterator[str]:
@@ -44,30 +45,51 @@ def _resolved(repair: Repair) -> Iterator[str]:
     found = repair.effect.difference
     gone = [conflict for conflict in found.conflicts if conflict.way == "removed"]
     if gone and repair.finding.check not in _CONFLICTS:
-        yield f"{counted(len(gone), 'conflict')} {'is' if len(gone) == 1 else 'are'} resolved"
+        yield plural(len(gone), "{number} conflict is resolved", "{number} conflicts are resolved")
     elif gone:
         own = next((one for one in gone if set(one.rules) == set(repair.finding.rules)), gone[0])
-        yield f"in the situation of the conflict, the rules then require {_required(own)}"
+        yield sentence("in the situation of the conflict, the rules then require {response}", response=_required(own))
         if len(gone) > 1:
-            yield f"{counted(len(gone) - 1, 'other conflict')} {'is' if len(gone) == 2 else 'are'} resolved"
+            yield plural(len(gone) - 1, "{number} other conflict is resolved", "{number} other conflicts are resolved")
 
 
 def _required(conflict: ConflictChange) -> str:
     """What the new rules require in the situation of a former conflict."""
     names = dict.fromkeys(quoted(in_short(o)) for one in conflict.after for o in one.obligations)
-    return listed(names) if names else "nothing"
+    return listed(names) if names else sentence("nothing")
 
 
 def _changes(found: Difference) -> Iterator[str]:
     for change in found.changes:
-        rule = quoted(change.old_rule or change.new_rule or "")
-        yield f"rule {rule}, {extent_text(change.extent._replace(over=()))}: {effect_text(change)}"
+        yield sentence(
+            "rule {rule}, {situations}: {effect}",
+            rule=quoted(change.old_rule or change.new_rule or ""),
+            situations=extent_text(change.extent._replace(over=())),
+            effect=effect_text(change),
+        )
     for situation in found.situations:
-        word = "allowed again" if situation.way == "added" else "assumed not to occur"
-        yield f"{_number(situation.extent)} {word}"
+        yield _allowed_again(situation.extent) if situation.way == "added" else _excluded(situation.extent)
 
 
-def _number(extent: Extent | None) -> str:
+def _allowed_again(extent: Extent | None) -> str:
     if extent is None or extent.affected is None or extent.possible is None:
-        return "an unknown number of situations is"
-    return f"{extent.affected:,} of {extent.possible:,} situations {'is' if extent.affected == 1 else 'are'}"
+        return sentence("an unknown number of situations is allowed again")
+    return plural(
+        extent.affected,
+        "{affected} of {possible} situations is allowed again",
+        "{affected} of {possible} situations are allowed again",
+        affected=grouped(extent.affected),
+        possible=grouped(extent.possible),
+    )
+
+
+def _excluded(extent: Extent | None) -> str:
+    if extent is None or extent.affected is None or extent.possible is None:
+        return sentence("an unknown number of situations is assumed not to occur")
+    return plural(
+        extent.affected,
+        "{affected} of {possible} situations is assumed not to occur",
+        "{affected} of {possible} situations are assumed not to occur",
+        affected=grouped(extent.affected),
+        possible=grouped(extent.possible),
+    )

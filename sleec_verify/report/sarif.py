@@ -17,7 +17,7 @@ from sleec_verify.report.flow import steps
 from sleec_verify.report.outcome import CheckedRuleset, Outcome, UnusableInput, checked
 from sleec_verify.report.plain import Located, described, in_project, located, troubles
 from sleec_verify.results.json_values import Json, dump
-from sleec_verify.results.phrases import value_text
+from sleec_verify.wording.phrases import value_text
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Place, Source

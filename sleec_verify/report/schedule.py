@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from sleec_verify.report.timeline import chart_of, duration
-from sleec_verify.results.phrases import quoted
+from sleec_verify.report.timeline import chart_of
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import joined, sentence
+from sleec_verify.wording.times import duration
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Context
@@ -20,13 +22,15 @@ def in_words(entries: Sequence[ScheduledResponse]) -> Iterator[str]:
     for entry in entries:
         groups.setdefault(entry.after, []).append(entry)
     name = max(len(_what(entry)) for entry in entries)
-    time = max(len(_when(entry)) for entry in entries)
+    time = max(len(when_text(entry)) for entry in entries)
     for after, group in groups.items():
         if after is not None:
-            yield f"after {quoted(after)} (times count from then):"
+            yield sentence("after {event} (times count from then):", event=quoted(after))
         for entry in group:
             indent = "  " if after is not None else ""
-            yield f"{indent}{_what(entry).ljust(name)}  {_when(entry).ljust(time)}  {_by(entry)}"
+            what, when = _what(entry), when_text(entry)
+            columns = [indent + what.ljust(name), joined("", [when, " " * (time - len(when))]), _by(entry)]
+            yield joined("  ", columns)
 
 
 def _what(entry: ScheduledResponse) -> str:
@@ -34,32 +38,44 @@ def _what(entry: ScheduledResponse) -> str:
     return name if entry.instead_of is None else f"or {name}"
 
 
-def _when(entry: ScheduledResponse) -> str:
+def when_text(entry: ScheduledResponse) -> str:
+    """``within 5 minutes``, ``from 1 minute to 5 minutes``, ``eventually``"""
     if entry.unknown is not None:
+        within = sentence("within {length}, whose value is not given", length=entry.unknown)
         if entry.lengths is None:
-            return f"within {entry.unknown}, whose value is not given"
+            return within
         shortest, longest = map(duration, entry.lengths)
-        return f"within {entry.unknown}, whose value is not given ({shortest} to {longest})"
+        return sentence("{window} ({shortest} to {longest})", window=within, shortest=shortest, longest=longest)
     assert entry.start is not None, "a known window has a start"
     if entry.end is None:
-        start = f" from {duration(entry.start)} on" if entry.start else ""
-        return f"always{start}" if entry.negated else f"eventually{start}"
+        return _without_end(entry.start, entry.negated)
     if entry.end == entry.start:
-        return "immediately" if entry.start == 0 else f"after {duration(entry.start)}"
+        return sentence("immediately") if entry.start == 0 else sentence("after {time}", time=duration(entry.start))
     if entry.start:
-        return f"from {duration(entry.start)} to {duration(entry.end)}"
-    return f"{'for' if entry.negated else 'within'} {duration(entry.end)}"
+        return sentence("from {start} to {end}", start=duration(entry.start), end=duration(entry.end))
+    if entry.negated:
+        return sentence("for {length}", length=duration(entry.end))
+    return sentence("within {length}", length=duration(entry.end))
+
+
+def _without_end(start: int, negated: bool) -> str:
+    if not start:
+        return sentence("always") if negated else sentence("eventually")
+    if negated:
+        return sentence("always from {start} on", start=duration(start))
+    return sentence("eventually from {start} on", start=duration(start))
 
 
 def _by(entry: ScheduledResponse) -> str:
-    why = f"by {entry.layer or entry.rule}"
+    why = sentence("by {clause}", clause=entry.layer or entry.rule)
     if entry.instead_of is None:
         return why
     if entry.overdue and not entry.instead_of.startswith("NOT "):
-        return f"{why}, if {quoted(entry.instead_of)} was not done in time"
+        return sentence("{why}, if {response} was not done in time", why=why, response=quoted(entry.instead_of))
     if entry.overdue:
-        return f"{why}, if {quoted(entry.instead_of.removeprefix('NOT '))} was done"
-    return f"{why}, instead of {quoted(entry.instead_of)}"
+        response = quoted(entry.instead_of.removeprefix("NOT "))
+        return sentence("{why}, if {response} was done", why=why, response=response)
+    return sentence("{why}, instead of {response}", why=why, response=quoted(entry.instead_of))
 
 
 def chart(entries: Sequence[ScheduledResponse], context: Context) -> list[str]:

@@ -14,25 +14,12 @@ from dataclasses import replace
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from sleec_verify.results.phrases import listed, quoted, value_text
+from sleec_verify.wording.phrases import happening, quoted
+from sleec_verify.wording.sentence import joined, sentence
+from sleec_verify.wording.times import duration
 
 if TYPE_CHECKING:
     from sleec_verify.results.timeline import Due, Moment, Timeline
-
-_UNITS = ((86400, "day"), (3600, "hour"), (60, "minute"), (1, "second"))
-
-
-def duration(seconds: int) -> str:
-    """``0 seconds``, ``5 minutes``, ``1 hour 30 minutes``."""
-    if seconds < 0:
-        return f"-{duration(-seconds)}"
-    parts = []
-    for size, unit in _UNITS:
-        count, seconds = divmod(seconds, size)
-        if count:
-            parts.append(f"{count} {unit}{'' if count == 1 else 's'}")
-    return " ".join(parts) or "0 seconds"
-
 
 FEW_ALIKE = 3
 """The most equal moments, at equal distances, that are shown one by one."""
@@ -79,52 +66,54 @@ def in_words(timeline: Timeline) -> Iterator[str]:
     late: list[tuple[int, str, str]] = []
     for moment, *others in _alike(timeline):
         lasts, step = others[-1].time - moment.time if others else 0, _step([moment, *others])
-        told.append((moment.time, _up_to(moment.time, lasts, step) + _happens(moment), []))
+        told.append((moment.time, joined("", [_up_to(moment.time, lasts, step), _happens(moment)]), []))
         for due in moment.due:
             if due.overdue and due.start > moment.time:
                 late.append((due.start, _up_to(due.start, lasts, step), _instead(due)))
             elif due.instead_of is None:
-                told[-1][2].append(f"  {says(due)}")
+                told[-1][2].append(joined("  ", ["", says(due)]))
     for time, up_to, owed in sorted(late, key=lambda one: one[0]):
         # At a moment that has a line already, it is a line below that one.
         below = next((lines for at, _, lines in told if at == time and not up_to), None)
         if below is None:
-            told.append((time, up_to + owed, []))
+            told.append((time, joined("", [up_to, owed]), []))
         else:
-            below.append(f"  {owed}")
+            below.append(joined("  ", ["", owed]))
     told.sort(key=lambda one: one[0])
     for time, happens, below in told:
-        when = "at one moment" if len(told) == 1 else "at first" if time == told[0][0] else f"after {duration(time)}"
-        yield f"{when}, {happens}"
+        when = (
+            sentence("at one moment, ")
+            if len(told) == 1
+            else sentence("at first, ")
+            if time == told[0][0]
+            else sentence("after {time}, ", time=duration(time))
+        )
+        yield joined("", [when, happens])
         yield from dict.fromkeys(below)
     if timeline.now is not None:
-        yield "after this, it is impossible to follow every rule"
+        yield sentence("after this, it is impossible to follow every rule")
 
 
 def _up_to(time: int, lasts: int, step: int) -> str:
-    every = "every second" if step == 1 else f"every {duration(step)}"
-    return f"and {every} up to {duration(time + lasts)}, " if lasts else ""
+    every = sentence("every second") if step == 1 else sentence("every {time}", time=duration(step))
+    return sentence("and {every} up to {time}, ", every=every, time=duration(time + lasts)) if lasts else ""
 
 
 def says(due: Due) -> str:
     """``rule `a` requires `E within 5 minutes` ``, or ``forbids``."""
-    verb = "forbids" if due.negated else "requires"
-    return f"rule {quoted(due.rule)} {verb} {quoted(due.words.removeprefix('NOT ') if due.negated else due.words)}"
+    rule = quoted(due.rule)
+    if due.negated:
+        return sentence("rule {rule} forbids {response}", rule=rule, response=quoted(due.words.removeprefix("NOT ")))
+    return sentence("rule {rule} requires {response}", rule=rule, response=quoted(due.words))
 
 
 def _instead(due: Due) -> str:
     assert due.instead_of is not None, "only an alternative is required instead of something"
-    return f"instead of {quoted(due.instead_of)}, {says(due)}"
+    return sentence("instead of {response}, {demand}", response=quoted(due.instead_of), demand=says(due))
 
 
 def _happens(moment: Moment) -> str:
-    events = (
-        f"{listed(map(quoted, moment.events))} {'occurs' if len(moment.events) == 1 else 'occur'}"
-        if moment.events
-        else "nothing occurs"
-    )
-    facts = [f"{quoted(name)} is {value_text(moment.conditions[name])}" for name in moment.telling]
-    return f"{events} while {listed(facts)}" if facts else events
+    return happening(moment.events, {name: moment.conditions[name] for name in moment.telling})
 
 
 def chart_of(timeline: Timeline) -> list[str]:

@@ -10,6 +10,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from sleec_verify.wording.sentence import sentence
+
 if TYPE_CHECKING:
     from sleec_verify.results.finding import Finding
 
@@ -26,7 +28,7 @@ def deduplicate(findings: Iterable[Finding]) -> list[Finding]:
         if finding.check in _ALSO and _of(finding, _ALSO[finding.check]) in dead
     }
     return [
-        replace(finding, help=f"{finding.help}; the rules mean the same without it")
+        replace(finding, help=sentence("{help}; the rules mean the same without it", help=finding.help or ""))
         if finding.check == "dead-hedge" and _of(finding, finding.check) in removable
         else finding
         for finding in found

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Union
 
 from sleec_verify.results.ci_commands import without_commands
 from sleec_verify.results.finding import Proved, Refuted, Unknown
-from sleec_verify.results.phrases import error_summary
+from sleec_verify.wording.phrases import error_summary
 
 if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError

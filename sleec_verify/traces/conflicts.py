@@ -16,7 +16,6 @@ from sleec_runtime.model import Rule
 from sleec_verify.encoding.budget import OutOfBudget, Undecided, as_far_as_decided, share
 from sleec_verify.encoding.solver import Refutation
 from sleec_verify.results.conflict_freedom import Example, UsedTemplate
-from sleec_verify.results.phrases import listed, quoted
 from sleec_verify.traces.complying_responses import complying_responses
 from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.cores import drop_slots, minimal_rules, weakest_facts
@@ -29,6 +28,7 @@ from sleec_verify.traces.situations import Fact, Situations
 from sleec_verify.traces.trace import TraceInstant
 from sleec_verify.traces.used_templates import PART, used_templates
 from sleec_verify.traces.witness import needed_relations, needed_values
+from sleec_verify.wording.phrases import listed, quoted
 
 MOST_UNDECIDED = 4
 """The number of undecided situations after which the search stops."""

@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from sleec_verify.encoding.budget import as_far_as_decided
-from sleec_verify.results.phrases import listed, quoted
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.model import TraceModel
+from sleec_verify.wording.phrases import listed, quoted
 
 
 class InductiveModel(TraceModel):

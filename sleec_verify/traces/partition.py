@@ -41,14 +41,7 @@ def _partition(index: RulesetIndex) -> Partition:
     if not speaks_of_traces(ruleset) and not (index.chains and has_chains(ruleset)):
         return Partition(index, None)
     whole = trace_index_of(index)
-    union = UnionFind()
-    for rule in ruleset.rules:
-        for event in (*named_atoms(rule), *(response.name for response in responses_of(rule))):
-            union.join(rule.trigger, event)
-    for relation in whole.relations:
-        events = list(events_of(relation))
-        for event in events:
-            union.join(events[0], event)
+    union = event_groups(whole)
     timed: set[Hashable] = set()
     for rule in ruleset.rules:
         leads_on = index.chains and any(r.name in whole.by_trigger for r in responses_of(rule))
@@ -63,6 +56,19 @@ def _partition(index: RulesetIndex) -> Partition:
     return Partition(
         without(index, with_time, bound), whole.part(with_time, [*bound, *about_measures]) if with_time else None
     )
+
+
+def event_groups(whole: TraceIndex) -> UnionFind:
+    """The groups of events: the events of a rule belong together, and so do those of a relation."""
+    union = UnionFind()
+    for rule in whole.rules:
+        for event in (*named_atoms(rule), *(response.name for response in responses_of(rule))):
+            union.join(rule.trigger, event)
+    for relation in whole.relations:
+        events = list(events_of(relation))
+        for event in events:
+            union.join(events[0], event)
+    return union
 
 
 def without(index: RulesetIndex, rules: Iterable[Rule], relations: Iterable[Relation]) -> RulesetIndex:

@@ -12,13 +12,13 @@ from sleec_verify.encoding.mentioned_names import add_claim
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.encoding.trace_scope import responses_of
 from sleec_verify.results.found_trace import FoundTrace, Shows
-from sleec_verify.results.phrases import quoted
 from sleec_verify.traces.cone import cone
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.induction import InductiveModel
 from sleec_verify.traces.model import TraceModel
 from sleec_verify.traces.relations import names_in, names_of_rule
 from sleec_verify.traces.trace import TraceInstant
+from sleec_verify.wording.phrases import quoted
 
 What = Callable[[TraceModel, int], Sequence[int]]
 """A function from a model and an instant of it to literals that state the question about the instant."""

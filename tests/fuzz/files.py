@@ -14,9 +14,9 @@ from sleec_verify.changes.gate.keys import is_assertion
 from sleec_verify.checks import run_checks
 from sleec_verify.cli.cache.entry import encode, head
 from sleec_verify.cli.cache.store import Cache
-from sleec_verify.cli.scope import Scope
 from sleec_verify.conformance.cases.reader import read_cases
 from sleec_verify.conformance.scenarios.expectations import unexpected
+from sleec_verify.encoding.scope import Scope
 from sleec_verify.results.finding import CheckResult
 from tests.fuzz.property import unless_refused
 

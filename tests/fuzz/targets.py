@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from sleec_runtime.language.dsl import keywords as dsl
 from sleec_runtime.language.english import keywords
-from tests.fuzz import certificates, changes, files, made, pending, python, questions, rules
+from tests.fuzz import audits, certificates, changes, files, made, messages, pending, python, questions, rules, wire
 from tests.fuzz.property import cpu_limit
 from tests.support.paths import ROOT
 
@@ -109,6 +109,15 @@ _CASES_WORDS = (
 _SITUATION_WORDS = ("Ring", "not ", "Age=", "Steps=", "Risk=", "LegalAge", "true", "too warm", "1.5")
 _ASSERTION_WORDS = ("never ", "always ", " when ", " and ", " or ", "not ", "Open", "Close", "Age", "Risk", "LegalAge")
 _JSON_WORDS = ('{"', '":', "null", "true", "[]", "{}", "1e400", "NaN", "-0", "\\ud800", '"a": 1, ')
+_LOG_WORDS = (
+    *_JSON_WORDS,
+    *('{"time": ', '"event": "Ring"', '"executed": "Open"', '"conditions": ', '"domain": "home"', '"topic": "/ring"'),
+    *('"message": ', '"Age": 1.5', '"Dark": true', '"Fall"', '"Close"', "\n"),
+)
+_MAPPING_WORDS = (
+    *("[conditions]", "[measures]", "[events]", "[obligations]", "topic", "field", "scale", "offset", "above", "below"),
+    *("until", "equals", "values", "each", "action", "goal", "Ring", "Age", "Risk", "Dark", "Open"),
+)
 _SNAPSHOT_WORDS = (*_JSON_WORDS, '"otherwise"', '"else"', '"waiting"', '"under way"', '"in force"', '"1/3"')
 _LITERAL_WORDS = ("None", "('", "()", "{'", "b''", "1e400", "-1", "1j", "...")
 _PROOF_WORDS = ("p cnf ", " 0 ", " d ", "c ")
@@ -140,6 +149,11 @@ TARGETS: Mapping[str, Target] = {
     ),
     "proof": Target(certificates.proof, certificates.proof_seeds, _PROOF_WORDS),
     "elaboration": Target(certificates.elaboration, certificates.elaboration_seeds, (), 256),
+    "message": Target(messages.message, messages.seeds, (*_JSON_WORDS, *messages.KINDS), 4096),
+    "cdr": Target(wire.cdr, wire.cdr_seeds, (), 512),
     "snapshot": Target(pending.snapshot, pending.snapshot_seeds, _SNAPSHOT_WORDS, 4096),
+    "log": Target(audits.log, lambda: (*audits.log_seeds(), *_deep("", "[")), _LOG_WORDS),
+    "mapping": Target(audits.mapping, audits.mapping_seeds, (*_TOML_WORDS, *_MAPPING_WORDS)),
+    "audit": Target(audits.state, audits.state_seeds, _JSON_WORDS, 4096),
     "python": Target(python.python, _python, _PYTHON_WORDS),
 }

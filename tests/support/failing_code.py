@@ -8,11 +8,11 @@ from sleec_runtime import Failure, Sleec, obligation
 from sleec_runtime.language import parse
 
 ISSUE = """
-RULE a WHEN T1 THEN A WITHIN 1 TO 5 seconds
+RULE a WHEN T1 THEN A WITHIN 1 TO 1000 seconds
 RULE b WHEN T2 THEN B WITHIN 2 seconds OTHERWISE C
-RULE d WHEN T3 THEN D WITHIN 1 TO 3 seconds
+RULE d WHEN T3 THEN D WITHIN 1 TO 1000 seconds
 """
-
+"""No deadline but that of b is so near that code begins after it on a busy machine."""
 
 QUICK = """
 RULE a WHEN A THEN X WITHIN 1 TO 1000 seconds

@@ -62,7 +62,7 @@ def _read_bytes(path: str | Path) -> tuple[str, bytes]:
     try:
         return name, read_file(name)
     except FileNotFoundError:
-        raise UnreadableFile(f"there is no file {name}", "check the spelling of its name and folder") from None
+        raise UnreadableFile(f"file {name} does not exist", "check the spelling of its name and folder") from None
     except IsADirectoryError:
         raise UnreadableFile(f"{name} is a folder, not a file", "give the path of a file in it") from None
     except PermissionError:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Literal, NamedTuple, Union
 
-from sleec_runtime.model import Operator
+from sleec_runtime.model import NEGATED, Operator
 
 Relation = Union[Operator, Literal["between"]]
 
@@ -28,7 +28,6 @@ _RELATIONS: dict[tuple[str, ...], Relation] = {
 }
 _LONGEST_FIRST = sorted(_RELATIONS.items(), key=lambda entry: -len(entry[0]))
 _VERBS: dict[str, Relation] = {"exceeds": ">", "equals": "="}
-_OPPOSITES: dict[Relation, Operator] = {"<": ">=", "<=": ">", "=": "!=", ">=": "<", ">": "<="}
 
 
 class ComparisonWords(NamedTuple):
@@ -55,4 +54,4 @@ def comparison_words(words: Sequence[str], lasting: bool) -> ComparisonWords | N
         return None
     if not is_negated:
         return ComparisonWords(relation, at + len(form))
-    return ComparisonWords(_OPPOSITES[relation], at + len(form)) if relation in _OPPOSITES else None
+    return None if relation == "between" else ComparisonWords(NEGATED[relation], at + len(form))

@@ -1,6 +1,6 @@
 """Modal verbs before an obligation, such as ``must not`` in ``THEN the robot must not leave``.
 
-A response states what is due or forbidden, so only modal verbs with that meaning are read: ``must leave`` is the
+A response states an obligation or a prohibition, so only modal verbs with that meaning are read: ``must leave`` is the
 obligation ``leave``, and ``must not leave`` is ``NOT leave``. Permissions such as ``may leave`` stay names.
 """
 

@@ -111,7 +111,7 @@ def _compared(comparison: Comparison, domain: str | None, over_time: bool) -> li
 def _with_conflicts_over_time(found: Sequence[_Any], timed: TimedConflicts) -> list[_Any]:
     """`found` with the conflicts over time, without those whose rules also conflict at one instant.
 
-    A contradiction at one instant that is no conflict is left out, if the changes of its rules are reported.
+    A contradiction at one instant is left out if the rules do not conflict over time, and their changes are reported.
     """
     changed = {label for one in found if isinstance(one, Change) for label in one.rules}
     kept = [

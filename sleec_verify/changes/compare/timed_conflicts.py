@@ -19,9 +19,9 @@ from sleec_verify.encoding.trace_scope import responses_of, speaks_of_traces
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.replay.situations import replay_finding
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import listed, quoted
 from sleec_verify.traces.event_conditions import named_events
 from sleec_verify.traces.index import TraceIndex
+from sleec_verify.wording.phrases import listed, quoted
 
 _Pairs = frozenset[tuple[str, Hashable]]
 """The rules of a conflict by their new labels, each with a clause."""

@@ -6,11 +6,13 @@ the same number. The size may grow exponentially with the variables, up to `MOST
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from math import prod
 
+from sleec_verify.wording.sentence import sentence
+
 MOST_NODES = 200_000
-"""The maximal number of nodes of one diagram."""
+"""The maximal number of nodes of one diagram, unless it has a limit of its own."""
 
 FALSE, TRUE = 0, 1
 
@@ -22,8 +24,9 @@ class TooLarge(Exception):
 class DecisionDiagram:
     """Nodes over variables with `sizes` values."""
 
-    def __init__(self, sizes: Sequence[int]) -> None:
+    def __init__(self, sizes: Sequence[int], most_nodes: int | None = None) -> None:
         self._sizes = sizes
+        self._most_nodes = MOST_NODES if most_nodes is None else most_nodes
         self._nodes: list[tuple[int, tuple[int, ...]]] = [(-1, ()), (-1, ())]
         self._unique: dict[tuple[int, tuple[int, ...]], int] = {}
         self._both: dict[tuple[int, int], int] = {}
@@ -36,8 +39,9 @@ class DecisionDiagram:
         key = (variable, children)
         node = self._unique.get(key)
         if node is None:
-            if len(self._nodes) >= MOST_NODES:
-                raise TooLarge(f"the decision diagram would need more than {MOST_NODES:,} nodes")
+            if len(self._nodes) >= self._most_nodes:
+                limit = f"{self._most_nodes:,}"
+                raise TooLarge(sentence("the decision diagram would need more than {limit} nodes", limit=limit))
             node = self._unique[key] = len(self._nodes)
             self._nodes.append(key)
         return node
@@ -75,6 +79,15 @@ class DecisionDiagram:
     def either(self, a: int, b: int) -> int:
         """The node of ``a ∨ b``."""
         return self.opposite(self.both(self.opposite(a), self.opposite(b)))
+
+    def first_variable(self, nodes: Iterable[int]) -> int:
+        """The first variable that one of some nodes chooses by. One of them is not `TRUE` or `FALSE`."""
+        return min(self._nodes[node][0] for node in nodes if node > TRUE)
+
+    def child(self, node: int, variable: int, value: int) -> int:
+        """The node under a value of a variable that is not after the variable of the node."""
+        own, children = self._nodes[node]
+        return children[value] if own == variable else node
 
     def support(self, node: int) -> set[int]:
         """The variables that a node depends on."""

@@ -27,13 +27,19 @@ class FormulaDiagram(DecisionDiagram):
     """The diagrams of formulas over the names of `formulas`. Two formulas are equivalent exactly if they have the
     same node."""
 
-    def __init__(self, formulas: Sequence[Formula], measures: Mapping[str, Measure]) -> None:
+    def __init__(
+        self, formulas: Sequence[Formula], measures: Mapping[str, Measure], most_nodes: int | None = None
+    ) -> None:
         """Raises `TooLarge` as `Variables` does."""
         self._measures = measures
         self._variables = Variables(formulas, measures)
         self.variables = self._variables.all
         self._built: dict[int, tuple[Formula, int]] = {}
-        super().__init__([variable.ways for variable in self.variables])
+        super().__init__([variable.ways for variable in self.variables], most_nodes)
+
+    def combinations(self, variable: int) -> Sequence[tuple[tuple[int, ...], tuple[int, ...]]]:
+        """For each value of a variable of several numbers: the region of each number, and -1, 0 or 1 for each order."""
+        return self._variables.cells[variable]
 
     def node(self, formula: Formula) -> int:
         """The node of a formula whose names and comparisons occur in the formulas of the diagram."""

@@ -18,6 +18,7 @@ from sleec_verify.encoding.order import place
 from sleec_verify.encoding.regions import Cut, cut_at
 from sleec_verify.encoding.union_find import UnionFind
 from sleec_verify.query.names import Name
+from sleec_verify.wording.sentence import sentence
 
 MOST_NAMES = 250
 """The maximal number of variables of one diagram. Operations recur once for each, and twice in `some`."""
@@ -79,7 +80,7 @@ class Variables:
             if name not in self._place:
                 self._add(name, cuts, clusters, pairs)
                 if len(self.all) > MOST_NAMES:
-                    raise TooLarge(f"it depends on more than {MOST_NAMES:,} names")
+                    raise TooLarge(sentence("it depends on more than {limit} names", limit=f"{MOST_NAMES:,}"))
 
     def _add(
         self,
@@ -113,7 +114,10 @@ class Variables:
         for _, cuts in bounds:
             tried *= len(cuts) + 1
         if tried > MOST_CELLS:
-            raise TooLarge(f"measures that are compared with each other have more than {MOST_CELLS:,} orders")
+            limit = f"{MOST_CELLS:,}"
+            raise TooLarge(
+                sentence("measures that are compared with each other have more than {limit} orders", limit=limit)
+            )
         integral = {name: self._measures[name].kind == "integer" for name, _ in bounds}
         found = []
         for regions in product(*(range(len(cuts) + 1) for _, cuts in bounds)):

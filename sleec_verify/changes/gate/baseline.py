@@ -9,7 +9,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from sleec_verify.changes.gate.keys import ConfigError
-from sleec_verify.results.phrases import shortened
+from sleec_verify.wording.phrases import shortened
 
 if TYPE_CHECKING:
     from sleec_verify.results.finding import Finding

@@ -21,7 +21,7 @@ from sleec_verify.changes.gate.result import (
 from sleec_verify.checks import CHECKS
 from sleec_verify.results.deduplication import deduplicate
 from sleec_verify.results.finding import SEVERITIES, ClauseRef, Finding, Severity, Unknown
-from sleec_verify.results.phrases import in_short, listed, quoted
+from sleec_verify.wording.phrases import in_short, listed, quoted
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset

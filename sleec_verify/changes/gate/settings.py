@@ -65,12 +65,12 @@ def config_of(tree: Tree, file: str | None) -> Config | None:
 
 def no_config(file: str) -> ConfigError:
     """The error if neither side has the configuration."""
-    return ConfigError(f"there is no file {file}", "check its name and folder")
+    return ConfigError(f"file {file} does not exist", "check its name and folder")
 
 
 def no_baseline(file: str) -> ConfigError:
     """The error if neither side has the baseline."""
-    return ConfigError(f"there is no baseline {file}", "write it: sleec-verify gate --write-baseline …")
+    return ConfigError(f"baseline {file} does not exist", "write it: sleec-verify gate --write-baseline …")
 
 
 class _File(NamedTuple):
@@ -98,7 +98,7 @@ def _read(tree: Tree, other: Tree, config: Config, baseline: str | None) -> Sett
         if not is_assertion(entry):
             found, elsewhere = (_at(one, config.at(entry)) for one in (tree, other))
             if found.data is None and elsewhere.data is None:
-                raise UnreadableFile(f"there is no file {found.called}", "check its name and folder")
+                raise UnreadableFile(f"file {found.called} does not exist", "check its name and folder")
             if found.data is not None:
                 assertions[found.path] = decode_source(found.called, found.data)
     return Settings(config, path, known, assertions)

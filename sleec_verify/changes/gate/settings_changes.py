@@ -13,7 +13,7 @@ from sleec_verify.changes.gate.result import POLICY_CHANGES, Block
 from sleec_verify.changes.gate.settings import Settings
 from sleec_verify.changes.revisions.single_file import Tree
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import counted, listed
+from sleec_verify.wording.phrases import counted, listed
 
 _MOST = 5
 """The maximal number of listed entries of a file."""

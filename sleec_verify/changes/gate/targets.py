@@ -26,7 +26,7 @@ def check_target(target: Target, locate: Locate, known: KnownFindings) -> Target
                 raise SleecError(f"{target.rules} has no domain called `{target.domain}`", f"it has {named}")
             code = locate(target.at(target.code))
             if not os.path.lexists(code):  # what is not there might be a module from elsewhere
-                raise SleecError(f"there is no file or folder {code}", "check its name and folder")
+                raise SleecError(f"file or folder {code} does not exist", "check its name and folder")
             found.result = check_structure(found.ruleset, python_files(code), target.domain)
     except SleecError as error:
         found.error = error

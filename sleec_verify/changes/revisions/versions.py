@@ -78,7 +78,7 @@ def of_paths(old: str, new: str, skipped: Callable[[str], None]) -> list[Version
     if os.path.isdir(old) != os.path.isdir(new):
         for path in (old, new):
             if path != "-" and not os.path.lexists(path):
-                raise UnreadableFile(f"there is no folder {path}", "check its name")
+                raise UnreadableFile(f"folder {path} does not exist", "check its name")
         folder, file = (old, new) if os.path.isdir(old) else (new, old)
         raise UnreadableFile(f"{folder} is a folder, but {file} is not", "name two files, or two folders")
     if not os.path.isdir(old):

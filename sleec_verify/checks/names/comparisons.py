@@ -8,20 +8,20 @@ from functools import cache
 from typing import NamedTuple
 
 from sleec_runtime.language.english.negations import is_clear
-from sleec_runtime.model import Measure, Ruleset
+from sleec_runtime.model import NEGATED, Measure, Operator, Ruleset
+from sleec_runtime.support.word_forms import ARTICLES, stems
 from sleec_verify.checks.names.measure_mentions import comparison_advice
 from sleec_verify.checks.names.misreading import COMPARISON, Misreading
-from sleec_verify.checks.names.word_forms import ARTICLES, stems
 from sleec_verify.checks.names.word_lists import (
     COMPARATORS,
     CONTRACTIONS,
-    NEGATED_OPERATORS,
     NUMBERS,
     PEOPLE,
     ROBOTS,
     UNITS,
 )
-from sleec_verify.results.phrases import quoted
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import sentence
 
 _DIGIT = re.compile("[0-9]")
 _NUMBER = re.compile(r"-?[0-9]+(?:\.[0-9]+)?")
@@ -41,7 +41,7 @@ class _Bound(NamedTuple):
     `negations` are the words `not` and `never` that the operator includes."""
 
     subject: list[str]
-    operator: str
+    operator: Operator
     value: str
     rest: list[str]
     has_is: bool
@@ -89,9 +89,13 @@ def _comparison(
             written = f"{subject or 'amount'} {bound.operator} {bound.value}"
             declaration = f"MEASURE {subject or 'amount'}: number"
             is_whole = _says_all(bound, words, stems(subject).split())
-            text = quoted(written) if is_whole or not subject else "comparisons of it"
-            advice = f"compare a measure: declare, for example, {quoted(declaration)}, and write {text}"
-            message = f"{quoted(name)} is read as one name, not as a comparison"
+            text = quoted(written) if is_whole or not subject else sentence("comparisons of it")
+            advice = sentence(
+                "compare a measure: declare, for example, {declaration}, and write {text}",
+                declaration=quoted(declaration),
+                text=text,
+            )
+            message = sentence("{name} is read as one name, not as a comparison", name=quoted(name))
             return Misreading(COMPARISON, name, message, advice, written if subject and is_whole else None)
     return _value_before_measure(ruleset, name)
 
@@ -124,9 +128,13 @@ def _stems_beside_a_comparison() -> frozenset[str]:
 
 
 def _with_measure(ruleset: Ruleset, name: str, measure: str, written: str, is_whole: bool) -> Misreading:
-    message = f"{quoted(name)} is read as one name, not as a comparison of the measure {quoted(measure)}"
+    message = sentence(
+        "{name} is read as one name, not as a comparison of the measure {measure}",
+        name=quoted(name),
+        measure=quoted(measure),
+    )
     if is_whole:
-        return Misreading(COMPARISON, name, message, f"write {quoted(written)}", written)
+        return Misreading(COMPARISON, name, message, sentence("write {written}", written=quoted(written)), written)
     return Misreading(COMPARISON, name, message, comparison_advice(ruleset.measures[measure]))
 
 
@@ -155,7 +163,7 @@ def _bound(values: Collection[str], words: list[str], at: int, with_is: bool) ->
         removed.append(before.pop())
     negations = tuple(word for word in removed if word in _NOT)
     if len(negations) % 2:
-        operator = NEGATED_OPERATORS[operator]
+        operator = NEGATED[operator]
     return _Bound(words[: len(before)], operator, value, words[at + 1 :], has_is, negations)
 
 

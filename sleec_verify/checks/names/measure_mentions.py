@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from sleec_runtime.model import Measure, Ruleset
+from sleec_runtime.support.word_forms import ARTICLES, singular, words_of_each
 from sleec_verify.checks.names.misreading import COMPARISON, Misreading
-from sleec_verify.checks.names.word_forms import ARTICLES, singular, words_of_each
 from sleec_verify.checks.names.word_lists import COMPARATORS, CONTRACTIONS, MODALS, NUMBERS
-from sleec_verify.results.phrases import quoted
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import joined, sentence
 
 _AMOUNTS = NUMBERS.keys() - {"one"}
 _SAID = """
@@ -59,17 +60,27 @@ def _says_something(before: Sequence[str], after: Sequence[str], measure: Measur
 
 
 def _misreading(name: str, measure: Measure, is_condition: bool) -> Misreading:
-    message = f"{quoted(name)} names the measure {quoted(measure.name)}, but is not a comparison"
+    message = sentence(
+        "{name} names the measure {measure}, but is not a comparison", name=quoted(name), measure=quoted(measure.name)
+    )
     if not is_condition:
-        advice = "an obligation names what the robot does: write a comparison after AND in the trigger, or after UNLESS"
+        advice = sentence(
+            "an obligation names what the robot does: write a comparison after AND in the trigger, or after UNLESS"
+        )
         return Misreading(COMPARISON, name, message, advice)
     return Misreading(COMPARISON, name, message, comparison_advice(measure))
 
 
 def comparison_advice(measure: Measure) -> str:
     """How to compare the measure, without a comparison that could say something else than the author means."""
-    value = f"one of its values ({', '.join(map(quoted, measure.values))})" if measure.values else "a number"
-    return (
-        f"compare {quoted(measure.name)} with {value} by an operator: `<`, `<=`, `=`, `!=`, `>=` or `>`; "
-        "write NOT, AND or OR around comparisons"
+    value = (
+        sentence("one of its values ({values})", values=joined(", ", map(quoted, measure.values)))
+        if measure.values
+        else sentence("a number")
+    )
+    return sentence(
+        "compare {measure} with {value} by an operator: `<`, `<=`, `=`, `!=`, `>=` or `>`; write "
+        "NOT, AND or OR around comparisons",
+        measure=quoted(measure.name),
+        value=value,
     )

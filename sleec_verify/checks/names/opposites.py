@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from sleec_runtime.language.english.negations import is_clear, negation
 from sleec_runtime.model import RELATIONS, Assume, Atom, Never, Ruleset, leaves
+from sleec_runtime.support.word_forms import stems, words_of_each
 from sleec_verify.checks.names.misreading import NEGATION, OPPOSITE, Misreading
-from sleec_verify.checks.names.word_forms import stems, words_of_each
 from sleec_verify.checks.names.word_lists import (
     AUXILIARIES,
     COMPLEMENTS,
@@ -18,7 +18,8 @@ from sleec_verify.checks.names.word_lists import (
     OPPOSITES,
 )
 from sleec_verify.encoding.relations import formulas_of_relation
-from sleec_verify.results.phrases import quoted
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import sentence
 
 
 def negated_conditions(names: Sequence[str]) -> Iterator[Misreading]:
@@ -32,22 +33,34 @@ def negated_conditions(names: Sequence[str]) -> Iterator[Misreading]:
         other = plain.get(stems(" ".join(left))) or plain.get(stems(" ".join(finite)))
         if other is not None and other != name:
             instead = f"NOT {other}"
-            message = f"{quoted(name)} and {quoted(other)} are read as two independent conditions"
+            message = sentence(
+                "{name} and {other} are read as two independent conditions", name=quoted(name), other=quoted(other)
+            )
             if negation(name.replace("\u2019", "'").casefold().split()) is not None:
-                yield Misreading(NEGATION, name, message, f"write {quoted(instead)}", instead, other)
+                yield Misreading(
+                    NEGATION, name, message, sentence("write {instead}", instead=quoted(instead)), instead, other
+                )
             else:
-                advice = f"if they are exact opposites, write {quoted(instead)}; otherwise, declare both"
+                advice = sentence(
+                    "if they are exact opposites, write {instead}; otherwise, declare both", instead=quoted(instead)
+                )
                 yield Misreading(NEGATION, name, message, advice, other=other)
         elif words[0] == "not" and " " in name:
-            message = f"{quoted(name)} is read as one name, including the word `{name.split()[0]}`"
+            message = sentence(
+                "{name} is read as one name, including the word {word}", name=quoted(name), word=quoted(name.split()[0])
+            )
             instead = f"NOT {name.split(maxsplit=1)[1]}"
             if is_clear(words[1:]):
-                yield Misreading(NEGATION, name, message, f"write {quoted(instead)}", instead)
+                yield Misreading(NEGATION, name, message, sentence("write {instead}", instead=quoted(instead)), instead)
             else:
-                yield Misreading(NEGATION, name, message, "write NOT before each condition that is negated")
+                yield Misreading(NEGATION, name, message, sentence("write NOT before each condition that is negated"))
         elif (same := _with_opposite(left, known)) is not None:
-            message = f"{quoted(name)} and {quoted(same)} are read as two independent conditions"
-            advice = f"if they mean the same, write {quoted(same)} in both places; otherwise, declare both"
+            message = sentence(
+                "{name} and {other} are read as two independent conditions", name=quoted(name), other=quoted(same)
+            )
+            advice = sentence(
+                "if they mean the same, write {other} in both places; otherwise, declare both", other=quoted(same)
+            )
             yield Misreading(NEGATION, name, message, advice, other=same)
 
 
@@ -62,7 +75,7 @@ def negated_triggers(triggers: Sequence[str], conditions: Sequence[str]) -> Iter
     known = frozenset(conditions)
     for one in negated_conditions([*conditions, *(name for name in triggers if name not in known)]):
         if one.name not in known and one.other in known:
-            advice = f"name an event, and write {quoted(f'AND NOT {one.other}')} after it"
+            advice = sentence("name an event, and write {text} after it", text=quoted(f"AND NOT {one.other}"))
             yield one._replace(help=advice, instead=None)
 
 
@@ -84,11 +97,13 @@ def opposites(ruleset: Ruleset, names: Sequence[str]) -> Iterator[Misreading]:
     related = _related(ruleset) if pairs else {}
     for (one, other), is_complement in sorted(pairs.items()):
         if related.get(one, frozenset()).isdisjoint(related.get(other, ())):
-            message = f"{quoted(other)} and {quoted(one)} are read as two independent conditions"
-            advice = f"exclude both together: {quoted(f'ASSUME NOT ({one} AND {other})')}"
+            message = sentence(
+                "{name} and {other} are read as two independent conditions", name=quoted(other), other=quoted(one)
+            )
+            advice = sentence("exclude both together: {text}", text=quoted(f"ASSUME NOT ({one} AND {other})"))
             instead = f"NOT {one}" if is_complement else None
             if instead is not None:
-                advice = f"write {quoted(instead)} instead, or {advice}"
+                advice = sentence("write {instead} instead, or {advice}", instead=quoted(instead), advice=advice)
             yield Misreading(OPPOSITE, other, message, advice, instead, one)
 
 

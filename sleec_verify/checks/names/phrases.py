@@ -22,7 +22,8 @@ from sleec_verify.checks.names.word_lists import (
     ROBOTS,
     SUPERFLUOUS,
 )
-from sleec_verify.results.phrases import quoted
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import sentence
 
 _PERMITTED = "(?:allowed|permitted|required|supposed|obliged|able|free)"
 _NOT = rf"(?:{'|'.join(sorted(NEGATIONS))})"
@@ -79,8 +80,12 @@ def misread_phrases(ruleset: Ruleset, phrases: Mapping[DeclaredKind, Iterable[st
     yield from measure_mentions(ruleset, rest["condition"], rest["obligation"])
     for name in phrases["trigger"]:
         if name not in foreign and name.casefold().startswith("not "):
-            message = f"{quoted(name)} is read as one name, including the word `{name[:3]}`"
-            yield Misreading(NEGATION, name, message, "name an event, and write AND NOT and a condition after it")
+            message = sentence(
+                "{name} is read as one name, including the word {word}", name=quoted(name), word=quoted(name[:3])
+            )
+            yield Misreading(
+                NEGATION, name, message, sentence("name an event, and write AND NOT and a condition after it")
+            )
     # An event such as `the temperature falls below 20` is what it says.
     events = [name for name in phrases["trigger"] if name not in foreign and _IS.search(name)]
     yield from map(_in_trigger, comparisons(ruleset, events, with_is=False))
@@ -92,7 +97,10 @@ def _foreign_keyword(name: str) -> str | None:
 
 def _in_trigger(found: Misreading) -> Misreading:
     comparison = found.instead or "age < 6"
-    advice = f"name an event, and write the comparison after AND, for example: WHEN the user calls AND {comparison}"
+    advice = sentence(
+        "name an event, and write the comparison after AND, for example: WHEN the user calls AND {comparison}",
+        comparison=comparison,
+    )
     return found._replace(help=advice, instead=None)
 
 
@@ -113,8 +121,8 @@ def _foreign(ruleset: Ruleset, name: str, foreign: str) -> Misreading:
         }.get(foreign)
     advice = (FOREIGN if name in ruleset.obligations else FOREIGN | OUTSIDE_OBLIGATIONS)[foreign]
     if instead:
-        advice += f"; here, write {quoted(instead)}"
-    message = f"{quoted(name)} is read as one name, including the word {quoted(foreign)}"
+        advice = sentence("{advice}; here, write {instead}", advice=advice, instead=quoted(instead))
+    message = sentence("{name} is read as one name, including the word {word}", name=quoted(name), word=quoted(foreign))
     return Misreading(FOREIGN_KEYWORD, name, message, advice, instead or None)
 
 
@@ -137,38 +145,48 @@ def _said(name: str, plain: str, is_forbidden: bool) -> Iterator[Misreading]:
     elif negations and denies_action(action.casefold().split()):
         yield _with_denial(name)
     elif negations and (negations > 1 or is_forbidden or not NOT_DUTIES.isdisjoint(modals)):
-        message = f"{quoted(name)} is read as an obligation, including its negation"
+        message = sentence("{name} is read as an obligation, including its negation", name=quoted(name))
         yield Misreading(NEGATION, name, message, _either(action))
     elif negations:
         instead = f"NOT {action}"
-        yield _in_obligation(name, True, f"to forbid it, write {quoted(instead)}", instead)
+        yield _in_obligation(name, True, sentence("to forbid it, write {instead}", instead=quoted(instead)), instead)
     # "can" without a subject may be another word.
     elif found["subject"] or verbs[0] not in ("can", "to"):
         if is_forbidden and _IS_MODAL.search(found["verbs"]):
             yield _in_obligation(name, False, _either(action))
         elif not PERMISSIONS.isdisjoint(modals):
-            advice = f"a rule cannot permit an action: if the robot must do it, write {quoted(action)}; or remove it"
+            advice = sentence(
+                "a rule cannot permit an action: if the robot must do it, write {action}; or remove it",
+                action=quoted(action),
+            )
             yield _in_obligation(name, False, advice)
         elif _IS_MODAL.search(found["verbs"]):
-            yield _in_obligation(name, False, f"write only the action: {quoted(action)}", action)
+            yield _in_obligation(
+                name, False, sentence("write only the action: {action}", action=quoted(action)), action
+            )
 
 
 def _with_denial(name: str) -> Misreading:
-    message = f"{quoted(name)} is read as one name, including its negation"
-    advice = "name the action itself, for example: open the door; to forbid it, write NOT before it"
+    message = sentence("{name} is read as one name, including its negation", name=quoted(name))
+    advice = sentence("name the action itself, for example: open the door; to forbid it, write NOT before it")
     return Misreading(NEGATION, name, message, advice)
 
 
 def _either(action: str) -> str:
     """What to write for words that one reader takes for a prohibition, and another one for a permission."""
-    return (
-        f"write {quoted(action)} if the robot must do it, and {quoted(f'NOT {action}')} if it must not; "
-        "remove it if the robot may choose"
+    return sentence(
+        "write {action} if the robot must do it, and {text} if it must not; remove it if the robot may choose",
+        action=quoted(action),
+        text=quoted(f"NOT {action}"),
     )
 
 
 def _in_obligation(name: str, negated: bool, help: str, instead: str | None = None) -> Misreading:
     if negated:
-        message = f"{quoted(name)} is read as an obligation, although it says what the robot must not do"
+        message = sentence(
+            "{name} is read as an obligation, although it says what the robot must not do", name=quoted(name)
+        )
         return Misreading(NEGATION, name, message, help, instead)
-    return Misreading(MODAL, name, f"{quoted(name)} is read as one name, including the modal verb", help, instead)
+    return Misreading(
+        MODAL, name, sentence("{name} is read as one name, including the modal verb", name=quoted(name)), help, instead
+    )

@@ -8,12 +8,13 @@ from itertools import combinations, permutations
 
 from sleec_runtime.model import DeclaredKind, Ruleset
 from sleec_runtime.support.suggestions import edit_distance
+from sleec_runtime.support.word_forms import VERBS_OF_NUMBER, singulars, stem, stems_of_each
 from sleec_verify.checks.names.frequent_words import FREQUENT_WORDS
 from sleec_verify.checks.names.misreading import KINDS, SIMILAR, SLIP, Misreading
-from sleec_verify.checks.names.word_forms import VERBS_OF_NUMBER, singulars, stem, stems_of_each
 from sleec_verify.checks.names.word_lists import OPPOSITES
 from sleec_verify.encoding.name_places import name_places
-from sleec_verify.results.phrases import quoted
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import sentence
 
 Used = Mapping[DeclaredKind, Collection[str]]
 """The names of each kind."""
@@ -62,8 +63,15 @@ def variants(ruleset: Ruleset, used: Used, declared: Collection[str]) -> list[Mi
 
 
 def _misreading(kind: int, name: str, kept: str) -> Misreading:
-    message = f"{quoted(name)} and {quoted(kept)} are read as two different names"
-    return Misreading(kind, name, message, f"if you mean the same, write {quoted(kept)} in both places", kept, kept)
+    message = sentence("{name} and {kept} are read as two different names", name=quoted(name), kept=quoted(kept))
+    return Misreading(
+        kind,
+        name,
+        message,
+        sentence("if you mean the same, write {kept} in both places", kept=quoted(kept)),
+        kept,
+        kept,
+    )
 
 
 def _is_slip(name: str, other: str, used: Used) -> bool:

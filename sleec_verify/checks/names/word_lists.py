@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
+from sleec_runtime.model import Operator
+from sleec_verify.wording.sentence import sentence
+
 _NEGATED_VERBS = """
 do does did is are was were has have must should could would might may need
 """
@@ -48,7 +53,7 @@ OPPOSITES = {**_pairs(_CONTRARIES), **COMPLEMENTS}
 NEGATING_PREFIXES = ("un", "dis", "non")
 """A word with one of these before it is the opposite of that word."""
 
-COMPARATORS = {
+COMPARATORS: Mapping[str, Operator] = {
     **dict.fromkeys(("under", "below", "less than", "fewer than", "younger than", "lower than", "smaller than"), "<"),
     **dict.fromkeys(("colder than", "shorter than", "beneath"), "<"),
     **dict.fromkeys(("at most", "no more than", "up to", "no greater than", "no higher than", "no older than"), "<="),
@@ -58,8 +63,6 @@ COMPARATORS = {
     **dict.fromkeys(("exactly", "equal to", "equals"), "="),
 }
 """Words that compare, and their operators."""
-
-NEGATED_OPERATORS = {"<": ">=", "<=": ">", ">": "<=", ">=": "<", "=": "!="}
 
 _UP_TO_TWENTY = """
 zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen
@@ -87,32 +90,36 @@ UNITS = frozenset(_UNITS.split())
 """What follows a number and is not counted."""
 
 FOREIGN = {
-    **dict.fromkeys(("BUT", "ALTHOUGH"), "leave it out, write AND, or write UNLESS before an exception"),
+    **dict.fromkeys(("BUT", "ALTHOUGH"), sentence("leave it out, write AND, or write UNLESS before an exception")),
     **dict.fromkeys(
-        ("IMMEDIATELY", "NOW", "ASAP", "INSTANTLY"), "leave it out: without WITHIN, the obligation is due at once"
+        ("IMMEDIATELY", "NOW", "ASAP", "INSTANTLY"),
+        sentence("leave it out: without WITHIN, the obligation is due at once"),
     ),
-    **dict.fromkeys(("DO", "PLEASE", "ALSO"), "leave it out"),
+    **dict.fromkeys(("DO", "PLEASE", "ALSO"), sentence("leave it out")),
     **dict.fromkeys(
-        ("MUST", "SHALL", "SHOULD", "WILL"), "leave it out: the robot must do what follows THEN or IN WHICH CASE"
+        ("MUST", "SHALL", "SHOULD", "WILL"),
+        sentence("leave it out: the robot must do what follows THEN or IN WHICH CASE"),
     ),
     **dict.fromkeys(
         ("MAY", "CAN", "OPTIONALLY"),
-        "leave it out, and say with UNLESS when the robot need not do it: a rule cannot permit an action",
+        sentence("leave it out, and say with UNLESS when the robot need not do it: a rule cannot permit an action"),
     ),
-    "FOR": "write NOT and WITHIN for a prohibition that lasts, for example: NOT play music WITHIN 5 minutes",
-    "AFTER": "write WITHIN and two times for an earliest time, for example: WITHIN 5 TO 10 minutes",
-    "BEFORE": "write WITHIN for a deadline, for example: WITHIN 5 minutes",
-    "BY": "write WITHIN for a deadline, for example: WITHIN 5 minutes",
-    "IMPLIES": "write NOT and OR: `NOT a OR b` says that a implies b",
-    "XOR": "write both cases: `(a AND NOT b) OR (NOT a AND b)`",
-    "NOR": "write AND NOT",
-    **dict.fromkeys(("ELSEIF", "ELIF", "ELSIF", "ENDIF", "END"), "write one UNLESS for each exception"),
-    **dict.fromkeys(("ONCE", "UPON", "GIVEN"), "write WHEN before the trigger, and AND before a condition"),
-    **dict.fromkeys(("PROVIDED", "ASSUMING"), "write AND and the condition before THEN, or UNLESS NOT after it"),
-    "EQUALS": "write = to compare a measure",
+    "FOR": sentence("write NOT and WITHIN for a prohibition that lasts, for example: NOT play music WITHIN 5 minutes"),
+    "AFTER": sentence("write WITHIN and two times for an earliest time, for example: WITHIN 5 TO 10 minutes"),
+    "BEFORE": sentence("write WITHIN for a deadline, for example: WITHIN 5 minutes"),
+    "BY": sentence("write WITHIN for a deadline, for example: WITHIN 5 minutes"),
+    "IMPLIES": sentence("write NOT and OR: `NOT a OR b` says that a implies b"),
+    "XOR": sentence("write both cases: `(a AND NOT b) OR (NOT a AND b)`"),
+    "NOR": sentence("write AND NOT"),
+    **dict.fromkeys(("ELSEIF", "ELIF", "ELSIF", "ENDIF", "END"), sentence("write one UNLESS for each exception")),
+    **dict.fromkeys(("ONCE", "UPON", "GIVEN"), sentence("write WHEN before the trigger, and AND before a condition")),
+    **dict.fromkeys(
+        ("PROVIDED", "ASSUMING"), sentence("write AND and the condition before THEN, or UNLESS NOT after it")
+    ),
+    "EQUALS": sentence("write = to compare a measure"),
     **dict.fromkeys(
         ("WITNESSES", "EXCLUDES", "PRECEDES", "CAUSES", "INCLUDES", "FORBIDS", "OPPOSES"),
-        "it is a keyword only in a RELATION",
+        sentence("it is a keyword only in a RELATION"),
     ),
 }
 """Words in capitals that look like keywords and are none in a rule, and what to write instead."""
@@ -120,9 +127,9 @@ FOREIGN = {
 OUTSIDE_OBLIGATIONS = {
     **dict.fromkeys(
         ("FOR", "AFTER", "BEFORE", "BY"),
-        "leave the time out, or declare a measure for it and compare it, for example: minutes_asleep > 5",
+        sentence("leave the time out, or declare a measure for it and compare it, for example: minutes_asleep > 5"),
     ),
-    **dict.fromkeys(("MUST", "SHALL", "SHOULD", "WILL", "MAY", "NOW", "IMMEDIATELY", "ASAP"), "leave it out"),
+    **dict.fromkeys(("MUST", "SHALL", "SHOULD", "WILL", "MAY", "NOW", "IMMEDIATELY", "ASAP"), sentence("leave it out")),
 }
 """What to write instead in a trigger or condition, where it is something else."""
 

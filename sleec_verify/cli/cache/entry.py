@@ -14,12 +14,13 @@ from hashlib import sha256
 from typing import TYPE_CHECKING, Any
 
 from sleec_verify.results.finding import CheckResult, ClauseRef, Finding, Proved, Refuted, Witness
+from sleec_verify.wording.sentence import Sentence
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Value
     from sleec_verify.results.timeline import Timeline
 
-FORMAT = "sleec-verify cache 1"
+FORMAT = "sleec-verify cache 2"
 
 
 def head(path: str, body: bytes) -> bytes:
@@ -33,7 +34,7 @@ def encode(results: tuple[CheckResult, ...]) -> bytes:
     """The body of an entry."""
     lines: list[object] = []
     for result in results:
-        lines.append((result.name, result.seconds, result.reason, len(result.findings)))
+        lines.append((result.name, result.seconds, _plain_text(result.reason), len(result.findings)))
         lines += map(_plain, result.findings)
     return "".join(f"{line!a}\n" for line in lines).encode()
 
@@ -46,7 +47,7 @@ def decode(body: bytes) -> tuple[CheckResult, ...]:
     lines = (literal_eval(line.decode("ascii")) for line in body.splitlines())
     for name, seconds, reason, number in lines:
         findings = tuple(_finding(next(lines)) for _ in range(number))
-        results.append(CheckResult(name, Refuted(findings) if findings else Proved(), seconds, reason))
+        results.append(CheckResult(name, Refuted(findings) if findings else Proved(), seconds, _text(reason)))
     return tuple(results)
 
 
@@ -56,7 +57,9 @@ def _plain(finding: Finding) -> dict[str, Any]:
     fields = {name: value for name, value in vars(finding).items() if name != "source"}
     fields["span"] = tuple(finding.span)
     fields["clauses"] = [tuple(clause) for clause in finding.clauses]
-    fields["related"] = [(tuple(span), word) for span, word in finding.related]
+    for name in _WORDS:
+        fields[name] = _plain_text(fields[name])
+    fields["related"] = [(tuple(span), _plain_text(word)) for span, word in finding.related]
     if finding.witness is not None:
         one = finding.witness
         fields["witness"] = (one.triggers, _plain_values(one.conditions), one.absent)
@@ -78,7 +81,9 @@ def _finding(fields: dict[str, Any]) -> Finding:
 
     fields["span"] = Span(*fields["span"])
     fields["clauses"] = tuple(ClauseRef(*clause) for clause in fields["clauses"])
-    fields["related"] = tuple((Span(*span), word) for span, word in fields["related"])
+    for name in _WORDS:
+        fields[name] = _text(fields[name])
+    fields["related"] = tuple((Span(*span), _text(word)) for span, word in fields["related"])
     if fields["witness"] is not None:
         triggers, values, absent = fields["witness"]
         fields["witness"] = Witness(triggers, _values(values), absent)
@@ -94,6 +99,23 @@ def _timeline(moments: list[dict[str, Any]], now: int | None) -> Timeline:
         moment["conditions"] = _values(moment["conditions"])
         moment["due"] = tuple(Due(**due) for due in moment["due"])
     return Timeline(tuple(Moment(**moment) for moment in moments), now)
+
+
+_WORDS = ("message", "note", "help")
+
+
+def _plain_text(text: Any) -> Any:
+    """Text, or a sentence as a tuple, so that it can be translated after it was read."""
+    if not isinstance(text, Sentence):
+        return text
+    return text.template, {name: _plain_text(value) for name, value in text.values.items()}, text.many, text.number
+
+
+def _text(plain: Any) -> Any:
+    if not isinstance(plain, tuple):
+        return plain
+    template, values, many, number = plain
+    return Sentence(template, {name: _text(value) for name, value in values.items()}, many, number)
 
 
 def _plain_values(values: Mapping[str, Value]) -> dict[str, Any]:

@@ -27,7 +27,7 @@ from sleec_verify.results.finding import CheckResult, Unknown
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
-    from sleec_verify.cli.scope import Scope
+    from sleec_verify.encoding.scope import Scope
 
 VARIABLE = "SLEEC_VERIFY_CACHE"
 OFF = "off"

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from sleec_runtime.support.suggestions import nearest
 from sleec_verify.conformance.cases.case import CasesError
 from sleec_verify.entailment.situation_text import SituationError, parse_assignment, parse_situation
-from sleec_verify.results.phrases import quoted, shortened
+from sleec_verify.wording.phrases import quoted, shortened
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset, Value
@@ -47,13 +47,18 @@ def situation_of(entry: Mapping[str, Any], ruleset: Ruleset) -> tuple[tuple[str,
         raise SituationError(f"when is {shortened(repr(when))}", 'give triggers: when = ["Fall"]')
     if isinstance(given, dict):
         triggers = parse_situation(ruleset, names, "").triggers
-        return tuple(sorted(triggers)), {name: _value(name, value, ruleset) for name, value in given.items()}
+        return tuple(sorted(triggers)), values_of(given, ruleset)
     if not isinstance(given, str):
         raise SituationError(
             f"given is {shortened(repr(given))}", "give a table: given = { UserUndressed = true, UserAge = 15 }"
         )
     context = parse_situation(ruleset, names, given)
     return tuple(sorted(context.triggers)), dict(context.conditions)
+
+
+def values_of(given: Mapping[str, object], ruleset: Ruleset) -> dict[str, Value]:
+    """The values of conditions and measures. Raises SituationError."""
+    return {name: _value(name, value, ruleset) for name, value in given.items()}
 
 
 def _value(name: str, value: object, ruleset: Ruleset) -> Value:
@@ -73,7 +78,9 @@ def _value(name: str, value: object, ruleset: Ruleset) -> Value:
         raise SituationError(
             f"{name} is {shortened(repr(value))}", "give true, false, a number, or a value of its scale in quotes"
         )
-    _, read = parse_assignment(ruleset, f"{name}={written}")
+    found, read = parse_assignment(ruleset, f"{name}={written}")
+    if found != name:
+        raise SituationError(f"{quoted(shortened(name))} is not a name", f"did you mean {quoted(found)}?")
     return read
 
 

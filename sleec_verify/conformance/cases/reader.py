@@ -31,7 +31,7 @@ from sleec_verify.conformance.scenarios.reader import check_overlap, scenario_of
 from sleec_verify.conformance.scenarios.scenario import Scenario
 from sleec_verify.entailment.situation_text import SituationError
 from sleec_verify.files.toml import read_toml
-from sleec_verify.results.phrases import shortened
+from sleec_verify.wording.phrases import shortened
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
@@ -62,26 +62,67 @@ def read_cases(path: Path, ruleset: Ruleset | None = None) -> CaseFile:
 
     Raises `CasesError`, and the errors of reading the ruleset.
     """
-    # Decimals, so that 36.6 is 36.6.
-    table = read_toml(path, str(path), CasesError, Decimal)
-    check_keys(path, "the file", table, _FILE_KEYS)
+    table = _table(path)
     if ruleset is None:
         ruleset = load(path.parent / text_of(path, "ruleset", table.get("ruleset", _beside(path))))
     _check_sum(path, table, ruleset)
+    ruleset = _read_as(path, table, ruleset)
+    found = [_case(path, n, entry, ruleset) for n, entry in enumerate(_entries(path, table), 1)]
+    if any(constructs(ruleset)):
+        check_overlap(path, found)
+    return CaseFile(ruleset, tuple(found))
+
+
+class UnfitCase(NamedTuple):
+    """A case that does not fit the rules, and why: they may have no such name."""
+
+    name: str
+    why: str
+
+
+def read_each(path: Path, ruleset: Ruleset) -> tuple[Ruleset, list[Case | Scenario | UnfitCase]]:
+    """The cases in the file at `path`, each on its own, and the rules in the reading of the file. The rules may be
+    another version than the one for which the cases were written.
+
+    Raises `CasesError` if the file is not one of cases.
+    """
+    table = _table(path)
+    ruleset = _read_as(path, table, ruleset)
+    return ruleset, [_each(path, n, entry, ruleset) for n, entry in enumerate(_entries(path, table), 1)]
+
+
+def _each(path: Path, number: int, entry: dict[str, Any], ruleset: Ruleset) -> Case | Scenario | UnfitCase:
+    try:
+        return _case(path, number, entry, ruleset)
+    except CasesError as error:
+        name = str(entry.get("name", f"case {number}"))
+        return UnfitCase(name, error.message.removeprefix(f"{path}: ").removeprefix(f"case {number} ({name}): "))
+
+
+def _table(path: Path) -> dict[str, Any]:
+    # Decimals, so that 36.6 is 36.6.
+    table = read_toml(path, str(path), CasesError, Decimal)
+    check_keys(path, "the file", table, _FILE_KEYS)
+    return table
+
+
+def _read_as(path: Path, table: dict[str, Any], ruleset: Ruleset) -> Ruleset:
+    """The rules in the reading that the file states, if it states one."""
     reading = table.get("reading")
-    if reading is not None:
-        if reading not in ("cascade", "priority"):
-            raise CasesError(f"{path}: the reading is {shortened(repr(reading))}", "it is cascade or priority")
-        ruleset = ruleset.read_as(reading)
+    if reading is None:
+        return ruleset
+    if reading not in ("cascade", "priority"):
+        raise CasesError(f"{path}: the reading is {shortened(repr(reading))}", "it is cascade or priority")
+    return ruleset.read_as(reading)
+
+
+def _entries(path: Path, table: dict[str, Any]) -> list[dict[str, Any]]:
     entries = table.get("case", [])
     if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
         raise CasesError(f"{path}: case is not a list of tables", "begin each case with [[case]]")
     if not entries:
         raise CasesError(f"{path} contains no case", "begin each with [[case]]")
-    found = [_case(path, n, entry, ruleset) for n, entry in enumerate(entries, 1)]
-    if any(constructs(ruleset)):
-        check_overlap(path, found)
-    return CaseFile(ruleset, tuple(found))
+    return entries
 
 
 def _beside(path: Path) -> str:

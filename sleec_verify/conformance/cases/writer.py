@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from sleec_verify.results.phrases import value_text
+from sleec_verify.wording.phrases import value_text
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset, Value
@@ -44,13 +44,18 @@ def header(ruleset: Ruleset, criterion: str, unreached: Sequence[UnreachedGoal],
         yield "]"
 
 
-def _case(case: Case) -> Iterator[str]:
+def situation_lines(case: Case) -> Iterator[str]:
+    """The first lines of a case: its name, domain and situation."""
     yield "[[case]]"
     yield f"name = {quoted_text(case.name)}"
     if case.domain is not None:
         yield f"domain = {quoted_text(case.domain)}"
     yield f"when = {list_of(case.triggers)}"
     yield f"given = {table_of(case.conditions)}"
+
+
+def _case(case: Case) -> Iterator[str]:
+    yield from situation_lines(case)
     yield f"obligations = {list_of(case.obligations)}"
     if case.prohibitions:
         yield f"prohibitions = {list_of(case.prohibitions)}"

@@ -1,4 +1,4 @@
-"""From a trace to a scenario: what the test does, when the robot completes what is due, and what the rules require."""
+"""From a trace to a scenario: the steps of the test, the completions of the robot, and what the rules require."""
 
 from __future__ import annotations
 

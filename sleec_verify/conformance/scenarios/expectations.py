@@ -9,10 +9,10 @@ from sleec_runtime.evaluation.trace_violations import Violation, violations
 from sleec_runtime.model import Ruleset, Value
 from sleec_verify.conformance.scenarios.construction import due_in
 from sleec_verify.conformance.scenarios.scenario import Scenario
-from sleec_verify.results.phrases import quoted
 from sleec_verify.results.timeline import Due
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.trace import TraceInstant
+from sleec_verify.wording.phrases import quoted
 
 
 def trace_of(scenario: Scenario) -> tuple[TraceInstant, ...]:

@@ -204,7 +204,7 @@ class _CourseJudgement:
 
 
 def _preference(one: Requirement, act: int) -> tuple[object, ...]:
-    """An execution counts for what its own act requires, then for what is due first."""
+    """The order in which an execution fulfils requirements: first those of its own act, then the earliest deadline."""
     return one.replaces is not None, one.act != act, one.last is None, one.last
 
 

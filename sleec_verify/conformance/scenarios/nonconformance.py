@@ -13,7 +13,7 @@ from sleec_verify.conformance.scenarios.judgement import Fault
 from sleec_verify.conformance.scenarios.requirement import Requirement
 from sleec_verify.conformance.scenarios.scenario import Scenario
 from sleec_verify.conformance.subject import Observation
-from sleec_verify.results.phrases import value_text
+from sleec_verify.wording.phrases import value_text
 
 
 class ScenarioNonconformance(Nonconformance):

@@ -29,8 +29,8 @@ from sleec_verify.conformance.cases.fields import check_keys, domain_of, goals_o
 from sleec_verify.conformance.scenarios.scenario import Completion, Scenario, Step
 from sleec_verify.conformance.scenarios.times import time_of
 from sleec_verify.entailment.situation_text import SituationError
-from sleec_verify.results.phrases import shortened
 from sleec_verify.results.timeline import Due
+from sleec_verify.wording.phrases import shortened
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset

@@ -7,7 +7,7 @@ import re
 from sleec_runtime.model import SECONDS
 from sleec_runtime.timed.clock import FURTHEST
 from sleec_verify.entailment.situation_text import SituationError
-from sleec_verify.results.phrases import shortened
+from sleec_verify.wording.phrases import shortened
 
 _TEXT = re.compile(r"([0-9]{1,20}) *(second|minute|hour|day)s?", re.ASCII)
 

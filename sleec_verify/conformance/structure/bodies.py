@@ -8,7 +8,7 @@ from sleec_verify.conformance.structure.execution import Call, Execution
 from sleec_verify.conformance.structure.methods import Variant
 from sleec_verify.conformance.structure.report import Findings, clause_name
 from sleec_verify.results.finding import ClauseRef
-from sleec_verify.results.phrases import listed
+from sleec_verify.wording.phrases import listed
 
 
 def compare(findings: Findings, rule: Rule, number: int, variant: Variant, trace: Execution) -> None:

@@ -28,7 +28,7 @@ from sleec_verify.conformance.structure.values import (
     UnknownValue,
     Value,
 )
-from sleec_verify.results.phrases import listed
+from sleec_verify.wording.phrases import listed
 
 _ACTIVATORS = {
     f"contextpy3.{name}"

@@ -13,7 +13,7 @@ from sleec_verify.conformance.structure.resolve import Resolver
 from sleec_verify.conformance.structure.target import PythonFile
 from sleec_verify.conformance.structure.uses import Use
 from sleec_verify.conformance.structure.values import Code, ObligationMark, Text
-from sleec_verify.results.phrases import listed
+from sleec_verify.wording.phrases import listed
 
 Place = tuple[PythonFile, ast.AST]
 

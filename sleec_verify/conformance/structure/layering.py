@@ -17,7 +17,7 @@ from sleec_verify.conformance.structure.program import Function
 from sleec_verify.conformance.structure.report import Findings, clause_name, expression
 from sleec_verify.conformance.structure.values import Layer, OwnLayer, Value
 from sleec_verify.results.finding import ClauseRef
-from sleec_verify.results.phrases import listed
+from sleec_verify.wording.phrases import listed
 
 
 @dataclass(eq=False)

@@ -9,7 +9,7 @@ from sleec_runtime.model import Rule, literals, obligation_text
 from sleec_verify.conformance.structure.own_conditions import OwnConditions
 from sleec_verify.conformance.structure.report import Findings
 from sleec_verify.conformance.structure.uses import Use
-from sleec_verify.results.phrases import listed
+from sleec_verify.wording.phrases import listed
 
 
 class LastingProhibitions:

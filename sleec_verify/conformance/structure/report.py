@@ -9,7 +9,7 @@ from sleec_runtime.model import Rule, Ruleset, Span, obligation_text
 from sleec_verify.conformance.structure.kinds import KINDS
 from sleec_verify.conformance.structure.target import PythonFile
 from sleec_verify.results.finding import ClauseRef, Finding
-from sleec_verify.results.phrases import listed
+from sleec_verify.wording.phrases import listed
 
 NAME = "structure"
 

@@ -18,7 +18,7 @@ from sleec_verify.conformance.structure.resolve import Resolver, maybe_runtime
 from sleec_verify.conformance.structure.target import PythonFile
 from sleec_verify.conformance.structure.values import Api, Code, Module, Object, Runtime, Table, Text, Value
 from sleec_verify.results.finding import ClauseRef
-from sleec_verify.results.phrases import listed
+from sleec_verify.wording.phrases import listed
 
 if TYPE_CHECKING:
     from sleec_verify.conformance.structure.uses import Use

@@ -131,7 +131,7 @@ def _module(name: str) -> Iterator[str]:
         if spec is None:
             missing = ".".join(name.split(".")[:done])
             raise NoTarget(
-                f"there is no file or folder {name}, and no module {missing} on sys.path",
+                f"file or folder {name} does not exist, and sys.path has no module {missing}",
                 "name a Python file or a folder, or add the module to PYTHONPATH",
             )
         where = list(spec.submodule_search_locations or ())
@@ -185,7 +185,7 @@ def _bytes(path: str) -> tuple[str, bytes]:
     try:
         return path, read_file(path)
     except FileNotFoundError:
-        raise NoTarget(f"there is no file {path}", "check its name and folder") from None
+        raise NoTarget(f"file {path} does not exist", "check its name and folder") from None
     except (OSError, ValueError) as error:
         raise UnreadableFile(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}") from None
 

@@ -75,9 +75,9 @@ def as_dimacs(ruleset: Ruleset, untimed: Untimed = "at") -> str:
 def as_json(ruleset: Ruleset, untimed: Untimed = "at") -> str:
     """``{"reading", "variables": [{"variable", "kind", "name"}], "clauses": [[literal]]}``.
 
-    An obligation with a window has the keys ``event`` and ``window`` too, with the first and the last second as text;
-    the last is null if there is no upper bound. ``excluded`` has the statements that Equation 1 does not include, if
-    there are any.
+    An obligation with a window has the keys ``event`` and ``window`` too, with its first and last second as
+    strings; the last second is null if the window has no end. ``excluded`` has the statements that Equation 1 does not
+    include, if there are any.
     """
     import json
 

@@ -36,7 +36,7 @@ from sleec_verify.encoding.statement_parts import with_formulas
 from sleec_verify.exchange.conversion.refusals import defined_names, refuse
 from sleec_verify.exchange.conversion.rules import narrow, split
 from sleec_verify.exchange.conversion.sleec_tk import has_untimed, refuse_unsayable, taken_names
-from sleec_verify.results.phrases import listed
+from sleec_verify.wording.phrases import listed
 
 _RENAME = "rename it everywhere in the rules first"
 _NAME = re.compile(r"[^\W\d]\w*")

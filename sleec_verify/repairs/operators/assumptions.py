@@ -7,12 +7,13 @@ from typing import TypeGuard
 
 from sleec_runtime.model import Atom, Formula, Not, Ruleset, leaves
 from sleec_verify.encoding.equation import conjunction, guard
-from sleec_verify.repairs.operators.claim_cases import parts_of
+from sleec_verify.repairs.operators.conditions import conjuncts
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import formula_text
 from sleec_verify.repairs.statement_insertion import with_relation, with_rule_after
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import quoted
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import sentence
 
 
 def assumptions(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -25,12 +26,14 @@ def assumptions(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
     parts = dict.fromkeys(
         part
         for rule, number in clauses
-        for part in parts_of(guard(rule, ruleset.reading, number))
+        for part in conjuncts(guard(rule, ruleset.reading, number))
         if not (_is_event(part) and part.name in ruleset.obligations)
     )
     if ruleset.syntax == "english" and len(parts) > 1:
         line = f"ASSUME {formula_text(ruleset, Not(conjunction(list(parts))))}"
-        yield Candidate("assumption", f"add {quoted(line)}", with_rule_after(ruleset, ruleset.rules[-1], [line]))
+        yield Candidate(
+            "assumption", sentence("add {line}", line=quoted(line)), with_rule_after(ruleset, ruleset.rules[-1], [line])
+        )
     elif ruleset.syntax == "dsl":
         events = [part.name for part in parts if _is_event(part)]
         conditions = [part for part in parts if not any(_is_event(leaf) for leaf in leaves(part))]
@@ -40,7 +43,9 @@ def assumptions(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
             line = f"mutualExclusive {events[0]} {events[1]}"
         else:
             return
-        yield Candidate("assumption", f"add the relation {quoted(line)}", with_relation(ruleset, line))
+        yield Candidate(
+            "assumption", sentence("add the relation {line}", line=quoted(line)), with_relation(ruleset, line)
+        )
 
 
 def _is_event(formula: Formula) -> TypeGuard[Atom]:

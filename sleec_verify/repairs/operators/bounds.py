@@ -10,16 +10,16 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
-from sleec_runtime.model import Comparison, MeasureRef, Operator, Rule, Ruleset, formulas_of, leaves
+from sleec_runtime.model import NEGATED, Comparison, MeasureRef, Operator, Rule, Ruleset, formulas_of, leaves
 from sleec_verify.encoding.equation import guard
 from sleec_verify.repairs.clause_names import rule_name
-from sleec_verify.repairs.operators.claim_cases import parts_of
+from sleec_verify.repairs.operators.conditions import conjuncts
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import as_read, printer_of, replaced
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import quoted
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import sentence
 
-_NEGATION: Mapping[Operator, Operator] = {"<": ">=", "<=": ">", ">=": "<", ">": "<="}
 _SAME_SIDE: Mapping[Operator, Operator] = {"<": "<=", "<=": "<", ">=": ">", ">": ">="}
 
 
@@ -41,9 +41,14 @@ def bounds(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
     for changed in found:
         for kept in found:
             if changed.rule is not kept.rule and changed.is_opposite(kept):
-                negated = replace(kept.comparison, operator=_NEGATION[kept.comparison.operator])
+                negated = replace(kept.comparison, operator=NEGATED[kept.comparison.operator])
                 text, old = _text(ruleset, negated), _text(ruleset, changed.comparison)
-                title = f"replace {quoted(old)} with {quoted(text)} in {rule_name(ruleset, changed.rule)}"
+                title = sentence(
+                    "replace {old} with {text} in {rule}",
+                    old=quoted(old),
+                    text=quoted(text),
+                    rule=rule_name(ruleset, changed.rule),
+                )
                 edits = replaced(changed.comparison.span, text)
                 yield Candidate("correction", title, edits, changed.rule.label)
 
@@ -51,8 +56,8 @@ def bounds(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
 def _bounds(ruleset: Ruleset, finding: Finding) -> Iterator[_Bound]:
     for label, number in finding.clauses:
         rule = ruleset.by_label[label]
-        for part in parts_of(guard(rule, ruleset.reading, number)):
-            if isinstance(part, Comparison) and part.operator in _NEGATION and isinstance(part.left, MeasureRef):
+        for part in conjuncts(guard(rule, ruleset.reading, number)):
+            if isinstance(part, Comparison) and part.operator in _SAME_SIDE and isinstance(part.left, MeasureRef):
                 yield _Bound(rule, part)
 
 
@@ -63,11 +68,16 @@ def operators(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
         is_whole_rule = finding.span == rule.heading_span
         start, end = rule.guard.span if is_whole_rule and rule.guard is not None else finding.span
         for leaf in (leaf for formula in formulas_of(rule) for leaf in leaves(formula)):
-            if isinstance(leaf, Comparison) and leaf.operator in _NEGATION and start <= leaf.span.start < end:
+            if isinstance(leaf, Comparison) and leaf.operator in _SAME_SIDE and start <= leaf.span.start < end:
                 same_side = _SAME_SIDE[leaf.operator]
-                for operator in (same_side, _NEGATION[same_side]):
+                for operator in (same_side, NEGATED[same_side]):
                     text, old = _text(ruleset, replace(leaf, operator=operator)), _text(ruleset, leaf)
-                    title = f"replace {quoted(old)} with {quoted(text)} in {rule_name(ruleset, rule)}"
+                    title = sentence(
+                        "replace {old} with {text} in {rule}",
+                        old=quoted(old),
+                        text=quoted(text),
+                        rule=rule_name(ruleset, rule),
+                    )
                     yield Candidate("correction", title, replaced(leaf.span, text))
 
 

@@ -9,12 +9,12 @@ from sleec_runtime.model import NO_COMMENTS, READINGS, Clause, Formula, Or, Rule
 from sleec_verify.encoding.equation import conjunction, disjunction
 from sleec_verify.repairs.clause_names import rule_name
 from sleec_verify.repairs.edit import TextEdit, joined
-from sleec_verify.repairs.operators.claim_cases import parts_of
-from sleec_verify.repairs.operators.giving_way import negation
+from sleec_verify.repairs.operators.conditions import conjuncts, negation
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import formula_text, line_break_of, strengthened, with_condition, without
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import exception, listed, quoted
+from sleec_verify.wording.phrases import exception, listed, quoted
+from sleec_verify.wording.sentence import sentence
 
 
 def readings(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -25,7 +25,7 @@ def readings(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
     for reading in sorted(READINGS, key=lambda one: one != ruleset.reading):
         text = f"READING {reading}"
         edit = TextEdit(0, 0, f"{text}{line_break_of(ruleset.source.text) * 2}")
-        yield Candidate("canonical-form", f"write {quoted(text)} at the top", (edit,))
+        yield Candidate("canonical-form", sentence("write {text} at the top", text=quoted(text)), (edit,))
 
 
 def _independent_of_reading(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -46,7 +46,12 @@ def _independent_of_reading(ruleset: Ruleset, finding: Finding) -> Iterator[Cand
             written.append(quoted(f"unless {text}"))
             if text != formula_text(ruleset, conditions[number]):
                 edits += with_condition(ruleset, hedge, others[number])
-        title = f"rewrite the exceptions of {rule_name(ruleset, rule)} for the reading {reading}: {listed(written)}"
+        title = sentence(
+            "rewrite the exceptions of {rule} for the reading {reading}: {written}",
+            rule=rule_name(ruleset, rule),
+            reading=reading,
+            written=listed(written),
+        )
         yield Candidate("canonical-form", title, tuple(edits))
 
 
@@ -61,7 +66,7 @@ def _any(conditions: Sequence[Formula]) -> Formula:
 
 
 def _all(conditions: Sequence[Formula]) -> Formula:
-    return conjunction(list(dict.fromkeys(part for one in conditions for part in parts_of(one))))
+    return conjunction(list(dict.fromkeys(part for one in conditions for part in conjuncts(one))))
 
 
 def silences(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -78,6 +83,12 @@ def silences(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
             continue
         excluded = conjunction([negation(hedge.condition) for hedge in last if hedge.condition is not None])
         edits = [edit for hedge in last for edit in without(ruleset, hedge.span)]
-        replaced = f"{listed(map(exception, last))} of {rule_name(ruleset, rule)}"
-        title = f"replace {replaced} with a condition at its trigger: {quoted(formula_text(ruleset, excluded))}"
+        replaced = sentence(
+            "{exceptions} of {rule}", exceptions=listed(map(exception, last)), rule=rule_name(ruleset, rule)
+        )
+        title = sentence(
+            "replace {exceptions} with a condition at its trigger: {condition}",
+            exceptions=replaced,
+            condition=quoted(formula_text(ruleset, excluded)),
+        )
         yield Candidate("canonical-form", title, joined((*strengthened(ruleset, rule, excluded), *edits)))

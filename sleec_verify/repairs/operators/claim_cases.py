@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from sleec_runtime.model import And, Atom, Claim, Formula, Obligation, Rule, Ruleset
-from sleec_verify.encoding.equation import conjunction, guard
+from sleec_runtime.model import Atom, Claim, Formula, Obligation, Rule, Ruleset
+from sleec_verify.encoding.equation import conjunction
 from sleec_verify.repairs.edit import TextEdit
-from sleec_verify.repairs.operators.giving_way import negation
+from sleec_verify.repairs.operators.conditions import conjuncts, deciding, unless
 from sleec_verify.repairs.statement_edits import strengthened, with_exception
 
 
@@ -19,12 +19,7 @@ def giving_way(
         return ()
     if response is not None:
         return with_exception(ruleset, rule, list(rule.clauses())[number], condition, [response])
-    if rule.hedges:
-        # Other clauses of the rule keep their situations.
-        outer = parts_of(rule.guard) if rule.guard is not None else ()
-        own = [part for part in parts_of(guard(rule, ruleset.reading, number))[1:] if part not in outer]
-        condition = conjunction([*own, condition])
-    return strengthened(ruleset, rule, negation(condition))
+    return strengthened(ruleset, rule, unless(ruleset, rule, number, condition))
 
 
 def where(ruleset: Ruleset, rule: Rule, number: int, claim: Claim) -> Formula | None:
@@ -32,14 +27,9 @@ def where(ruleset: Ruleset, rule: Rule, number: int, claim: Claim) -> Formula | 
 
     A check of rules with time cannot decide a condition that names a response. So it leaves out such an event.
     """
-    own = {Atom("trigger", rule.trigger), *parts_of(guard(rule, ruleset.reading, number))}
-    applies = parts_of(claim.condition) if claim.condition is not None else ()
+    own = {Atom("trigger", rule.trigger), *deciding(ruleset, rule, number)}
+    applies = conjuncts(claim.condition) if claim.condition is not None else ()
     if not applies or claim.event not in ruleset.obligations:
         applies = (Atom("trigger", claim.event), *applies)
     needed = [part for part in applies if part not in own]
     return conjunction(needed) if needed else None
-
-
-def parts_of(formula: Formula) -> tuple[Formula, ...]:
-    """The conjuncts of a formula."""
-    return formula.operands if isinstance(formula, And) else (formula,)

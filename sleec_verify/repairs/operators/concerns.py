@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from sleec_runtime.model import Claim, Obligation, Rule, Ruleset
+from sleec_runtime.model import Claim, Obligation, Rule, Ruleset, claims
 from sleec_verify.repairs.clause_names import clause_name, rule_name
 from sleec_verify.repairs.edit import TextEdit, joined
 from sleec_verify.repairs.operators.claim_cases import giving_way, where
@@ -17,13 +17,14 @@ from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import exception_text, with_exception
 from sleec_verify.repairs.statement_insertion import new_label, rule_text, with_rule_after
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import listed, quoted
+from sleec_verify.wording.phrases import listed, quoted
+from sleec_verify.wording.sentence import sentence
 
 
 def preventions(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
     """A shorter window, an exception, or a new rule, so that the concern cannot happen."""
-    for concern in ruleset.statements:
-        if isinstance(concern, Claim) and concern.kind == "concern" and concern.label in finding.obligations:
+    for concern in claims(ruleset, "concern"):
+        if concern.label in finding.obligations:
             for opposite in _opposites(concern):
                 yield from _shorter_windows(ruleset, concern, opposite)
                 yield from _exceptions(ruleset, concern, opposite)
@@ -52,7 +53,12 @@ def _shorter_windows(ruleset: Ruleset, concern: Claim, opposite: Obligation) -> 
         for own in list(rule.clauses())[number].obligations:
             window = own.timing.window if own.timing is not None else None
             if own.name == opposite.name and window is not None and window != wanted:
-                title = f"require {quoted(own.name)} {quoted(text)} in {clause_name(ruleset, rule, number)}"
+                title = sentence(
+                    "require {action} {window} in {clause}",
+                    action=quoted(own.name),
+                    window=quoted(text),
+                    clause=clause_name(ruleset, rule, number),
+                )
                 yield Candidate("deadline-refinement", title, (TextEdit(*window.span, text),))
 
 
@@ -62,7 +68,7 @@ def _exceptions(ruleset: Ruleset, concern: Claim, opposite: Obligation) -> Itera
         condition = where(ruleset, rule, number, concern)
         if rule.trigger == concern.event and condition is not None:
             text = quoted(exception_text(ruleset, condition, [opposite]))
-            title = f"add to {clause_name(ruleset, rule, number)}: {text}"
+            title = sentence("add to {clause}: {text}", clause=clause_name(ruleset, rule, number), text=text)
             edits = with_exception(ruleset, rule, list(rule.clauses())[number], condition, [opposite])
             yield Candidate("defeater-introduction", title, edits)
 
@@ -73,18 +79,18 @@ def _rules(ruleset: Ruleset, concern: Claim, opposite: Obligation) -> Iterator[C
     label = new_label(ruleset, f"{concern.label}_rule")
     lines = rule_text(ruleset, label, concern.event, concern.condition, opposite)
     edits = with_rule_after(ruleset, ruleset.rules[-1], lines)
-    title = f"add the rule {quoted(' '.join(lines))}"
+    title = sentence("add the rule {rule}", rule=quoted(" ".join(lines)))
     yield Candidate("rule-addition", title, edits)
     contrary = [one for one in _clauses(ruleset, _contrary(opposite)) if not _may_wait(one, opposite)]
     if len({rule.label for rule, _ in contrary}) < len(contrary):
         return
-    for how, response in (("a condition", None), ("an exception", opposite)):
+    for how, response in ((sentence("a condition"), None), (sentence("an exception"), opposite)):
         changed = [giving_way(ruleset, rule, number, concern, response) for rule, number in contrary]
         if changed and all(changed):
             names = listed(rule_name(ruleset, rule) for rule, _ in contrary)
             yield Candidate(
                 "rule-addition",
-                f"{title}; then add {how} to {names} for this case",
+                sentence("{title}; then add {how} to {names} for this case", title=title, how=how, names=names),
                 joined((*(edit for one in changed for edit in one), *edits)),
             )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from sleec_runtime.model import (
     Claim,
@@ -13,6 +13,7 @@ from sleec_runtime.model import (
     Ruleset,
     ScaleValue,
     Span,
+    claims,
     formulas_of,
     leaves,
     literals,
@@ -20,11 +21,13 @@ from sleec_runtime.model import (
 from sleec_runtime.support.suggestions import nearest
 from sleec_verify.encoding.name_uses import events_of_rules, formulas_beside_rules
 from sleec_verify.repairs.edit import TextEdit
+from sleec_verify.repairs.operators.removal import without_claim
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import indent_at, replaced, without
 from sleec_verify.repairs.statement_insertion import new_label
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import quoted
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import sentence
 
 
 def labels(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -34,7 +37,11 @@ def labels(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
             stem = ruleset.source.text[slice(*finding.span)]
             label = new_label(ruleset, stem)
             edit = TextEdit(finding.span.end, finding.span.end, label[len(stem) :])
-            yield Candidate("renaming", f"rename the second {quoted(stem)} to {quoted(label)}", (edit,))
+            yield Candidate(
+                "renaming",
+                sentence("rename the second {stem} to {label}", stem=quoted(stem), label=quoted(label)),
+                (edit,),
+            )
 
 
 def values(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -46,7 +53,7 @@ def values(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
                 meant = _value(ruleset, leaf)
                 if meant is not None:
                     written = ruleset.source.text[slice(*finding.span)]
-                    title = f"replace {quoted(written)} with {quoted(meant)}"
+                    title = sentence("replace {written} with {meant}", written=quoted(written), meant=quoted(meant))
                     yield Candidate("correction", title, replaced(finding.span, meant))
                     return
 
@@ -63,23 +70,26 @@ def _value(ruleset: Ruleset, comparison: Comparison) -> str | None:
 def events(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
     """A claim names an event of a rule instead of one that no rule mentions; or a purpose is removed, which is always
     possible then."""
-    written = ruleset.source.text[slice(*finding.span)]
-    meant = nearest(written, sorted(events_of_rules(ruleset)))
-    if meant is not None:
-        yield Candidate("renaming", f"replace {quoted(written)} with {quoted(meant)}", replaced(finding.span, meant))
-    for claim in ruleset.statements:
-        if isinstance(claim, Claim) and claim.kind == "purpose" and claim.label in finding.obligations:
-            title = f"remove the purpose {quoted(claim.label)}"
-            yield Candidate("claim-removal", title, without(ruleset, claim.span))
+    yield from _nearest(ruleset, finding.span, events_of_rules(ruleset))
+    yield from (without_claim(ruleset, one) for one in claims(ruleset, "purpose") if one.label in finding.obligations)
 
 
 def constrained(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
     """A constraint names an obligation of a rule instead of one that no rule has."""
     required = {one.name for rule in ruleset.rules for clause in rule.clauses() for one in literals(clause)}
-    written = ruleset.source.text[slice(*finding.span)]
-    meant = nearest(written, sorted(required))
+    yield from _nearest(ruleset, finding.span, required)
+
+
+def _nearest(ruleset: Ruleset, place: Span, names: Iterable[str]) -> Iterator[Candidate]:
+    """The most similar of these names, if one is similar to the name at this place."""
+    written = ruleset.source.text[slice(*place)]
+    meant = nearest(written, sorted(names))
     if meant is not None:
-        yield Candidate("renaming", f"write {quoted(meant)} for {quoted(written)}", replaced(finding.span, meant))
+        yield Candidate(
+            "renaming",
+            sentence("replace {written} with {meant}", written=quoted(written), meant=quoted(meant)),
+            replaced(place, meant),
+        )
 
 
 def definitions(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -89,7 +99,11 @@ def definitions(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
     end = text.find("\n", finding.span.end)
     line = Span(start + len(indent_at(text, finding.span.start)), len(text) if end < 0 else end)
     written = quoted(text[slice(*finding.span)])
-    yield Candidate("declaration-removal", f"remove the second definition of {written}", without(ruleset, line))
+    yield Candidate(
+        "declaration-removal",
+        sentence("remove the second definition of {written}", written=written),
+        without(ruleset, line),
+    )
 
 
 def windows(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -97,5 +111,5 @@ def windows(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
     text = ruleset.source.text
     if finding.obligations:  # otherwise it is the time of a relation
         start = len(text[: finding.span.start].rstrip())
-        title = f"remove {quoted(text[slice(*finding.span)])}"
+        title = sentence("remove {text}", text=quoted(text[slice(*finding.span)]))
         yield Candidate("canonical-form", title, (TextEdit(start, finding.span.end, ""),))

@@ -14,7 +14,8 @@ from sleec_verify.repairs.edit import TextEdit
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import printer_of, response_text
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import quoted
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import sentence
 
 
 def deadlines(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -40,7 +41,8 @@ def _at_some_time(ruleset: Ruleset, rule: Rule, number: int, response: Obligatio
         edit = TextEdit(*timing.window.span, text)
     else:
         return
-    title = f"write {quoted(f'{response} {text}')} in {clause_name(ruleset, rule, number)}"
+    written = quoted(f"{response} {text}")
+    title = sentence("write {written} in {clause}", written=written, clause=clause_name(ruleset, rule, number))
     yield Candidate("deadline-refinement", title, (edit,), rule.label)
 
 
@@ -53,7 +55,12 @@ def _with_alternative(ruleset: Ruleset, rule: Rule, number: int, response: Oblig
     for other in others:
         if not other.negated and other.name != response.name:
             text = f"{printer_of(ruleset).keyword('otherwise')} {response_text(ruleset, [other])}"
-            title = f"add to {quoted(str(response))} in {clause_name(ruleset, rule, number)}: {quoted(text)}"
+            title = sentence(
+                "add to {response} in {clause}: {text}",
+                response=quoted(str(response)),
+                clause=clause_name(ruleset, rule, number),
+                text=quoted(text),
+            )
             start, end = response.span.start, timing.window.span.end
             edits: tuple[TextEdit, ...] = (TextEdit(end, end, f" {text}"),)
             if len(own.obligations) > 1:

@@ -8,12 +8,14 @@ from sleec_runtime.model import Ruleset
 from sleec_verify.encoding.equation import conjunction
 from sleec_verify.repairs.clause_names import rule_name
 from sleec_verify.repairs.edit import joined
-from sleec_verify.repairs.operators.giving_way import negation, yieldings
+from sleec_verify.repairs.operators.conditions import negation
+from sleec_verify.repairs.operators.giving_way import yieldings
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import without_obligations
 from sleec_verify.repairs.statement_insertion import new_label, rule_text, with_rule_after
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import quoted
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import sentence
 
 
 def decompositions(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -29,6 +31,8 @@ def decompositions(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
             label = new_label(ruleset, f"{one.rule.label}_part")
             lines = rule_text(ruleset, label, one.rule.trigger, guard, contradicted[0])
             moved, new = quoted(str(contradicted[0])), quoted(" ".join(lines))
-            title = f"split {rule_name(ruleset, one.rule)}: move {moved} to {new}"
+            title = sentence(
+                "split {rule}: move {moved} to {new}", rule=rule_name(ruleset, one.rule), moved=moved, new=new
+            )
             edits = joined((*rest, *with_rule_after(ruleset, one.rule, lines)))
             yield Candidate("rule-decomposition", title, edits, one.rule.label)

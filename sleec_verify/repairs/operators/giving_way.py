@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from sleec_runtime.model import And, Atom, Clause, Formula, Never, Not, Obligation, Rule, Ruleset, Truth, leaves
-from sleec_verify.encoding.equation import conjunction, guard
+from sleec_runtime.model import Atom, Clause, Formula, Never, Not, Obligation, Rule, Ruleset, leaves
+from sleec_verify.encoding.equation import conjunction
 from sleec_verify.repairs.clause_names import clause_name, rule_name
+from sleec_verify.repairs.operators.conditions import deciding, negation, simplified, unless
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import (
     exception_text,
@@ -22,7 +23,8 @@ from sleec_verify.repairs.statement_edits import (
     without_obligations,
 )
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import listed, quoted
+from sleec_verify.wording.phrases import listed, quoted
+from sleec_verify.wording.sentence import sentence
 
 
 class Yielding(NamedTuple):
@@ -48,7 +50,7 @@ def yieldings(ruleset: Ruleset, finding: Finding) -> Iterator[Yielding]:
     for rule, number in clauses:
         others = tuple(other for other in clauses if other[0] is not rule)
         if others or excluded:
-            theirs = [part for other, at in others for part in _conjuncts(guard(other, ruleset.reading, at))]
+            theirs = [part for other, at in others for part in deciding(ruleset, other, at)]
             yield Yielding(rule, number, tuple(_conditions(ruleset, rule, number, [*theirs, *excluded])), others)
 
 
@@ -60,7 +62,7 @@ def nevers_of(ruleset: Ruleset, finding: Finding) -> list[Never]:
 
 def _situation(never: Never) -> list[Formula]:
     """The conditions under which a NEVER excludes obligations: its conjuncts without these."""
-    return [part for part in _conjuncts(never.formula) if not any(map(_is_obligation, leaves(part)))]
+    return [part for part in simplified(never.formula) if not any(map(_is_obligation, leaves(part)))]
 
 
 def _is_obligation(formula: Formula) -> bool:
@@ -68,7 +70,7 @@ def _is_obligation(formula: Formula) -> bool:
 
 
 def _conditions(ruleset: Ruleset, rule: Rule, number: int, theirs: Iterable[Formula]) -> Iterator[Formula]:
-    own = set(_conjuncts(guard(rule, ruleset.reading, number)))
+    own = deciding(ruleset, rule, number)
     exact = list(dict.fromkeys(part for part in theirs if part not in own))
     positive = [part for part in exact if not isinstance(part, Not)]
     for parts in (exact, positive):
@@ -76,31 +78,16 @@ def _conditions(ruleset: Ruleset, rule: Rule, number: int, theirs: Iterable[Form
             yield conjunction(parts)
 
 
-def _conjuncts(formula: Formula) -> tuple[Formula, ...]:
-    if isinstance(formula, Truth):
-        return ()
-    if isinstance(formula, Not) and isinstance(formula.operand, Not):
-        return _conjuncts(formula.operand.operand)
-    return formula.operands if isinstance(formula, And) else (formula,)
-
-
-def negation(formula: Formula) -> Formula:
-    """The opposite of a formula, without a double negation."""
-    return formula.operand if isinstance(formula, Not) else Not(formula)
-
-
 def guards(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
     """Trigger strengthening: the rule does not apply where the others decide."""
     for one in yieldings(ruleset, finding):
         for condition in one.conditions:
-            exact = condition
-            if one.rule.hedges:
-                # Other clauses of the rule keep their situations.
-                own = _conjuncts(guard(one.rule, ruleset.reading, one.number))
-                outer = 1 + len(_conjuncts(one.rule.guard) if one.rule.guard is not None else ())
-                exact = conjunction([*own[outer:], condition])
-            negated = negation(exact)
-            title = f"add to the trigger of {rule_name(ruleset, one.rule)}: {quoted(_and(ruleset, negated))}"
+            negated = unless(ruleset, one.rule, one.number, condition)
+            title = sentence(
+                "add to the trigger of {rule}: {text}",
+                rule=rule_name(ruleset, one.rule),
+                text=quoted(_and(ruleset, negated)),
+            )
             edits = strengthened(ruleset, one.rule, negated)
             yield Candidate("trigger-strengthening", title, edits, one.rule.label)
 
@@ -135,14 +122,18 @@ def refinements(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
             for condition in one.conditions:
                 refined = conjunction([one.clause.condition, negation(condition)])
                 text = quoted(formula_text(ruleset, refined))
-                title = f"narrow the condition of {clause_name(ruleset, one.rule, one.number)} to {text}"
+                title = sentence(
+                    "narrow the condition of {clause} to {text}",
+                    clause=clause_name(ruleset, one.rule, one.number),
+                    text=text,
+                )
                 edits = narrowed(ruleset, one.clause, negation(condition))
                 yield Candidate("defeater-refinement", title, edits, one.rule.label)
 
 
 def _exception(ruleset: Ruleset, one: Yielding, condition: Formula, response: tuple[Obligation, ...]) -> Candidate:
     text = exception_text(ruleset, condition, response)
-    title = f"add to {clause_name(ruleset, one.rule, one.number)}: {quoted(text)}"
+    title = sentence("add to {clause}: {text}", clause=clause_name(ruleset, one.rule, one.number), text=quoted(text))
     edits = with_exception(ruleset, one.rule, one.clause, condition, response)
     return Candidate("defeater-introduction", title, edits, one.rule.label)
 
@@ -156,5 +147,5 @@ def responses(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
         edits = without_obligations(ruleset, clause, removed)
         if removed and edits is not None:
             names = listed(quoted(str(one)) for one in removed)
-            title = f"remove {names} from {clause_name(ruleset, rule, number)}"
+            title = sentence("remove {names} from {clause}", names=names, clause=clause_name(ruleset, rule, number))
             yield Candidate("response-refinement", title, edits, label)

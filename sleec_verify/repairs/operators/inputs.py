@@ -10,7 +10,8 @@ from sleec_verify.repairs.operators.removal import without_name
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import line_break_of
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import quoted
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import sentence
 
 
 def agents(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -19,7 +20,7 @@ def agents(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
         if isinstance(statement, Declaration) and statement.kind == "event" and statement.agent is None:
             for at, name in enumerate(statement.names):
                 if name in finding.obligations:
-                    title = f"declare that the robot causes {quoted(name)}"
+                    title = sentence("declare that the robot causes {name}", name=quoted(name))
                     yield Candidate("correction", title, _by_system(ruleset, statement, at))
 
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from sleec_runtime.model import Constant, Declaration, Measure, Ruleset
+from sleec_runtime.model import Claim, Constant, Declaration, Measure, Ruleset
 from sleec_verify.repairs.clause_names import clause_name
 from sleec_verify.repairs.edit import TextEdit
 from sleec_verify.repairs.repair import Candidate
-from sleec_verify.repairs.statement_edits import removed_rule, without
+from sleec_verify.repairs.statement_edits import without
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import quoted
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import sentence
 
 DECLARATION = "remove the declaration of "
 """How the title of the removal of a declaration begins."""
@@ -20,10 +21,10 @@ def rules(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
     """Rule removal: without one of the rules of the finding."""
     for label in finding.rules:
         rule = ruleset.by_label[label]
-        title = f"remove rule {quoted(label)}"
+        title = sentence("remove rule {rule}", rule=quoted(label))
         if rule.always is not None:  # the text has only the statement of all its rules
-            title = f"remove {quoted(' '.join(ruleset.source.text[slice(*rule.span)].split()))}"
-        yield Candidate("rule-removal", title, removed_rule(ruleset, rule), label)
+            title = sentence("remove {text}", text=quoted(" ".join(ruleset.source.text[slice(*rule.span)].split())))
+        yield Candidate("rule-removal", title, without(ruleset, rule.span), label)
 
 
 def redundant_rule(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -37,8 +38,20 @@ def hedges(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
         if number:
             rule = ruleset.by_label[label]
             clause = list(rule.clauses())[number]
-            title = f"remove {clause_name(ruleset, rule, number)}"
+            title = sentence("remove {clause}", clause=clause_name(ruleset, rule, number))
             yield Candidate("defeater-removal", title, without(ruleset, clause.span), label)
+
+
+def without_claim(ruleset: Ruleset, claim: Claim) -> Candidate:
+    """Without a concern or purpose."""
+    label = quoted(claim.label)
+    is_concern = claim.kind == "concern"
+    title = (
+        sentence("remove the concern {claim}", claim=label)
+        if is_concern
+        else sentence("remove the purpose {claim}", claim=label)
+    )
+    return Candidate("claim-removal", title, without(ruleset, claim.span))
 
 
 def declarations(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -53,8 +66,13 @@ def declarations(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
             yield _declaration(statement.names[at], without_name(ruleset, statement, at))
 
 
+def declaration_removal(name: str) -> str:
+    """The title of the removal of a declaration, which begins with `DECLARATION`. `name` is quoted."""
+    return sentence("remove the declaration of {name}", name=name)
+
+
 def _declaration(name: str, edits: tuple[TextEdit, ...]) -> Candidate:
-    return Candidate("declaration-removal", f"{DECLARATION}{quoted(name)}", edits)
+    return Candidate("declaration-removal", declaration_removal(quoted(name)), edits)
 
 
 def without_name(ruleset: Ruleset, declaration: Declaration, at: int) -> tuple[TextEdit, ...]:

@@ -10,7 +10,8 @@ from sleec_verify.repairs.clause_names import rule_name
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.repairs.statement_edits import reordered
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import exception
+from sleec_verify.wording.phrases import exception
+from sleec_verify.wording.sentence import sentence
 
 
 def orders(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
@@ -20,5 +21,10 @@ def orders(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
         clause = list(rule.clauses())[number]
         for first, second in pairwise(rule.hedges):
             if clause is first or clause is second:
-                title = f"swap {exception(first)} and {exception(second)} of {rule_name(ruleset, rule)}"
+                title = sentence(
+                    "swap {first} and {second} of {rule}",
+                    first=exception(first),
+                    second=exception(second),
+                    rule=rule_name(ruleset, rule),
+                )
                 yield Candidate("defeater-reordering", title, reordered(ruleset, first, second), label)

@@ -10,7 +10,8 @@ from sleec_verify.repairs.edit import TextEdit
 from sleec_verify.repairs.repair import Candidate, Operator
 from sleec_verify.repairs.statement_edits import replaced, without
 from sleec_verify.results.finding import Finding
-from sleec_verify.results.phrases import counted, quoted
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import plural
 
 _OTHER_NAME = ("SLEEC525", "SLEEC526")
 
@@ -21,9 +22,15 @@ def names(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
     if changes:
         edits = tuple(edit for span, text in changes for edit in _edits(ruleset, span, text))
         written = ruleset.source.text[slice(*finding.span)]
-        places = f" in {counted(len(changes), 'place')}" if len(changes) > 1 else ""
         operator: Operator = "renaming" if finding.code in _OTHER_NAME else "canonical-form"
-        yield Candidate(operator, f"replace {quoted(written)} with {quoted(changes[0][1])}{places}", edits)
+        title = plural(
+            len(changes),
+            "replace {written} with {text}",
+            "replace {written} with {text} in {number} places",
+            written=quoted(written),
+            text=quoted(changes[0][1]),
+        )
+        yield Candidate(operator, title, edits)
 
 
 def _edits(ruleset: Ruleset, place: Span, text: str) -> tuple[TextEdit, ...]:

@@ -119,6 +119,7 @@ def test_a_word_of_a_measure_in_another_name(written: str) -> None:
     assert not codes(f"{MEASURES}WHEN the bell rings THEN report danger AND keep the count below 50 AND ask the age\n")
 
 
+@pytest.mark.speed
 def test_many_measures_take_linear_time() -> None:
     """Pairs of a measure and a condition would be a million."""
     names = [f"{chr(97 + at // 676)}{chr(97 + at // 26 % 26)}{chr(97 + at % 26)}q" for at in range(1000)]

@@ -81,6 +81,7 @@ def test_the_dsl_has_no_slips() -> None:
     assert not codes(text)
 
 
+@pytest.mark.speed
 def test_a_series_of_words_is_no_slip_and_takes_linear_time() -> None:
     """Pairs of these words would be 125,000."""
     rules = [f"WHEN alarm{chr(0x4E00 + at)} rings THEN go{at} AND sensor{chr(0x4E00 + at)}\n" for at in range(500)]

@@ -27,7 +27,7 @@ BREAKS: dict[str, Callable[[bytes], bytes]] = {
     "cut": lambda content: content[: len(content) // 2],
     "binary": lambda _: bytes(range(256)) * 4,
     "no hash": lambda content: content.partition(b"\n")[2],
-    "older format": lambda content: content.replace(b"cache 1", b"cache 0"),
+    "older format": lambda content: content.replace(b"cache 2", b"cache 1"),
     "first bit": flip(0),
     "bit of the hash": flip(40),
     "bit of the body": flip(150),

@@ -16,7 +16,7 @@ from sleec_runtime.model import Ruleset, Span, Value
 from sleec_verify.checks import run_checks
 from sleec_verify.cli.cache import entry as entry_of_cache
 from sleec_verify.cli.cache.store import Cache
-from sleec_verify.cli.scope import Scope
+from sleec_verify.encoding.scope import Scope
 from sleec_verify.results.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict, Witness
 from tests.support.caches import CLASH, TIMED, entries
 from tests.support.cli import Cli

@@ -140,7 +140,7 @@ def test_the_plan_without_a_terminal(cli: Cli, tmp_path: Path) -> None:
 
 
 def test_bad_input(cli: Cli, tmp_path: Path) -> None:
-    assert "there is no file" in cli("resolve", "no.sleec").err
+    assert "file no.sleec does not exist" in cli("resolve", "no.sleec").err
     ran = cli("resolve", "a.sleec", files={"a.sleec": "WHEN"})
     assert ran.code == 2
     assert "a.sleec:1:5" in ran.err

@@ -11,6 +11,7 @@ import pytest
 
 from sleec_runtime.errors import LanguageError, UnreadableFile
 from sleec_runtime.language import load, read_source
+from sleec_runtime.model import Place, Source, Span
 
 RULE = "WHEN A THEN B\n"
 
@@ -34,7 +35,7 @@ def test_files_that_are_no_text(tmp_path: Path, data: bytes, message: str) -> No
 
 
 def test_files_that_are_not_there(tmp_path: Path) -> None:
-    with pytest.raises(UnreadableFile, match="there is no file"):
+    with pytest.raises(UnreadableFile, match=r"file .* does not exist"):
         load(tmp_path / "missing.sleec")
     with pytest.raises(UnreadableFile, match="is a folder"):
         load(tmp_path)
@@ -74,3 +75,9 @@ def test_standard_input(monkeypatch: pytest.MonkeyPatch) -> None:
     ruleset = load("-")
     assert ruleset.source.path == "<stdin>"
     assert len(ruleset.rules) == 1
+
+
+def test_a_part_of_a_file_has_the_lines_of_the_file() -> None:
+    part = Source("log", "ab\ncd", first_line=7)
+    assert part.place(Span(1, 4)) == Place(7, 2, 8, 2)
+    assert [part.line(number) for number in (7, 8)] == ["ab", "cd"]

@@ -27,9 +27,11 @@ EXTRAS = [
 ]
 GROUPS: dict[str, list[Any]] = VERIFY["dependency-groups"]
 ASKED = {
+    "browser": GROUPS["browser"],
     "build": [*GROUPS["build"], *VERIFY["build-system"]["requires"], *RUNTIME["build-system"]["requires"]],
     "dev": [*NEEDED, *EXTRAS, *GROUPS["build"], *GROUPS["dev"]],
     "docs": GROUPS["docs"],
+    "evaluation": GROUPS["evaluation"],
     "fuzz": GROUPS["fuzz"],
     "runtime": RUNTIME["project"]["dependencies"],
     "tools": GROUPS["tools"],

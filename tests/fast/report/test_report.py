@@ -17,7 +17,7 @@ from sleec_verify.report.outcome import CheckedRuleset
 from sleec_verify.report.palette import PLAIN, Palette
 from sleec_verify.results.finding import CheckResult, Finding, Proved, Refuted, Unknown, Witness
 from sleec_verify.results.json_values import values_json
-from sleec_verify.results.phrases import context_text, listed, value_text, witness_text
+from sleec_verify.wording.phrases import context_text, listed, value_text, witness_text
 
 
 def shown(text: str, *marks: Mark) -> str:

@@ -172,6 +172,7 @@ def test_the_same_rules_give_the_same_bytes() -> None:
     assert others == [first, first]
 
 
+@pytest.mark.slow
 @given(small_rulesets(measures=True))
 @settings(max_examples=80)
 def test_one_formula_for_all_says_what_the_causes_say(ruleset: Ruleset) -> None:
@@ -179,6 +180,7 @@ def test_one_formula_for_all_says_what_the_causes_say(ruleset: Ruleset) -> None:
     assert conflict_free(index) == (not list(CONFLICT.run(index)))
 
 
+@pytest.mark.slow
 @given(rulesets())
 @settings(max_examples=30, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 def test_certificates_of_random_rulesets_hold(tmp_path: Path, ruleset: Ruleset) -> None:

@@ -66,6 +66,7 @@ def test_these_are_the_files(made: Path) -> None:
     assert {path.name for path in (made / "c").iterdir()} == {"manifest.json", *FILES}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FILES)
 def test_a_change_of_any_byte_is_rejected(made: Path, tmp_path: Path, name: str) -> None:
     folder = copied(made, tmp_path)

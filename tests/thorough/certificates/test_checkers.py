@@ -75,6 +75,7 @@ def mutated(text: str, draw: random.Random) -> str:
     return "".join(lines)
 
 
+@pytest.mark.slow
 @given(all_asked=asked(), seed=st.integers(0, 10**6))
 @settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 def test_mutated_proofs_are_judged_alike(by_coq: Proved, all_asked: list[RecordedQuestion], seed: int) -> None:

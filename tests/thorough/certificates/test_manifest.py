@@ -119,6 +119,7 @@ def with_value(whole: Any, path: Path_, value: Any) -> Any:
 OTHERS: tuple[Any, ...] = (None, True, False, 0, 1, -1, 1.0, 2.5, "", "1", "x", [], ["x"], [1], {}, {"x": 1})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", TEXTS)
 def test_values_of_another_type_are_refused_everywhere(kind: str) -> None:
     whole = json.loads(manifest(kind))
@@ -209,6 +210,7 @@ def mutated(draw: st.DrawFn, kinds: tuple[str, ...] = tuple(TEXTS)) -> tuple[str
     return kind, data
 
 
+@pytest.mark.slow
 @given(mutated())
 @settings(max_examples=1_000, suppress_health_check=[HealthCheck.too_slow])
 def test_any_bytes_are_refused_or_the_one_way_to_write_what_they_say(changed: tuple[str, bytes]) -> None:

@@ -93,6 +93,7 @@ def explicit(text: str, response: str) -> str:
     return text + rules
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(60))
 def test_with_time_it_is_one_rule_for_each_trigger(seed: int) -> None:
     text = timed_english(seed)

@@ -109,6 +109,7 @@ def check_reading(ruleset):
 ALL = [check_conflicts, check_vacuous, check_dead, check_redundant, check_reading]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("check", ALL)
 def test_boolean_rulesets(check):
     @settings(max_examples=120, deadline=None)
@@ -119,6 +120,7 @@ def test_boolean_rulesets(check):
     compare()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("check", ALL)
 def test_rulesets_whose_triggers_are_tied_to_one_another(check):
     @settings(max_examples=60, deadline=None)
@@ -146,6 +148,7 @@ def test_a_rule_that_meets_a_trigger_without_which_the_constraints_cannot_be_kep
     assert [finding.rules for finding in findings(ruleset, "vacuous-conflict")] == [("guest", "night")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("check", ALL)
 def test_rulesets_with_measures(check):
     @settings(max_examples=50, deadline=None)
@@ -156,6 +159,7 @@ def test_rulesets_with_measures(check):
     compare()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("check", [check_conflicts, check_vacuous])
 def test_constraints_as_large_ones_are_asked_about(check):
     """An EXCLUSIVE whose pairs are not listed, and clashes asked about as a whole before their causes."""

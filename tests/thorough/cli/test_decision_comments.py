@@ -25,6 +25,7 @@ rule_end
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "text",
     [

@@ -40,6 +40,9 @@ ROLES = {
     "certify --sign": "certify good.sleec -o certificate --sign X.pem",
     "conform, rules": "conform robot.py --ruleset X.sleec",
     "conform, code": "conform X.py --ruleset good.sleec",
+    "audit, rules": "audit mission.jsonl --ruleset X.sleec",
+    "audit --mapping": "audit mission.jsonl --ruleset good.sleec --mapping X.toml",
+    "audit --state": "audit mission.jsonl --ruleset good.sleec --state X.json",
     "convert": "convert X.sleec --to dsl",
     "fmt": "fmt X.sleec",
     "fmt --check": "fmt --check .",
@@ -205,8 +208,13 @@ OWN_FILES = {
     ("sleec_verify/certificates/checker.py", "read_text"),
     ("sleec_verify/pytest_plugin/__init__.py", "read_text"),
     ("sleec_verify/files/temporary.py", "open"),
+    ("sleec_verify/audit/readers/json_lines.py", "open"),
+    ("sleec_verify/report/html/page.py", "read_text"),
+    ("sleec_verify/audit/fleet.py", "read_bytes"),
+    ("sleec_verify/wording/catalogue.py", "read_text"),
 }
-"""Where a file is opened that no user names for reading: results of the cache, what is written, copies of proofs."""
+"""Where a file is opened that no user names for reading: results of the cache, what is written, copies of proofs, our
+own code and words; and logs, which are read as streams."""
 
 
 def test_no_other_code_reads_files() -> None:

@@ -104,7 +104,7 @@ def test_what_cannot_be_read_is_told_and_waited_for(watched: Callable[..., Watch
     assert "a.sleec:1:5: error" in one.err
     (one.folder / "a.sleec").unlink()
     one.rounds(2)
-    assert "there is no file a.sleec" in one.err or "a.sleec cannot be read" in one.err or "no such file" in one.err
+    assert "file a.sleec does not exist" in one.err or "a.sleec cannot be read" in one.err or "no such file" in one.err
     one.write("a.sleec", CLEAN)
     one.rounds(3)
     assert one.out.endswith("1 ruleset: no errors, no warnings, no notes (reading cascade)\n")

@@ -107,6 +107,7 @@ def test_a_wrong_asynchronous_robot_fails() -> None:
         check_conformance(make, parts=["each-rule"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("chains", [False, True])
 @pytest.mark.parametrize("loop", [False, True], ids=["the given clock", "AsyncioClock"])
 @pytest.mark.parametrize("slow", [(), ("Speak",)], ids=["at return", "completed later"])

@@ -18,7 +18,13 @@ def test_the_correct_robot_passes(make) -> None:
     check_conformance(make, RULESET, domain=DOMAIN)
 
 
-@pytest.mark.parametrize("name", sorted(MUTANTS))
+# They differ from the rules in few situations only, so the search for one is long.
+LATE = {"inner_trigger_unheard", "never_forgets"}
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.slow) if name in LATE else name for name in sorted(MUTANTS)]
+)
 def test_a_mutant_is_caught(name: str) -> None:
     with pytest.raises(Nonconformance) as caught:
         check_conformance(MUTANTS[name], RULESET, domain=DOMAIN)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+import pytest
 from hypothesis import find, given, settings
 from hypothesis import strategies as st
 
@@ -30,6 +31,7 @@ def test_contexts_keep_the_assumptions(context: Context) -> None:
     assert context.triggers
 
 
+@pytest.mark.slow
 @given(st.data())
 def test_contexts_of_any_ruleset(data: st.DataObject) -> None:
     ruleset = data.draw(small_rulesets(measures=True))
@@ -38,6 +40,7 @@ def test_contexts_of_any_ruleset(data: st.DataObject) -> None:
         assert not broken_assumptions(ruleset, context)
 
 
+@pytest.mark.slow
 @given(st.data())
 def test_the_nearest_context_is_the_context_itself_where_that_is_possible(data: st.DataObject) -> None:
     ruleset = data.draw(small_rulesets(measures=True))
@@ -57,6 +60,7 @@ def test_fixed_names_stay(data: st.DataObject) -> None:
     assert found is None or dict(found.conditions) == facts
 
 
+@pytest.mark.slow
 @given(st.data())
 def test_the_oracle_is_right(data: st.DataObject) -> None:
     ruleset = data.draw(rulesets())

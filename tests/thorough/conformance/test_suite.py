@@ -43,6 +43,7 @@ def running_at(domain: str) -> Sleec:
     return sleec
 
 
+@pytest.mark.speed
 def test_the_eight_rules_exhaustively_in_a_second() -> None:
     started = time.process_time()
     check_conformance(make_sleec, parts=["each-rule"])

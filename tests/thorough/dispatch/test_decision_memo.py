@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -32,6 +33,7 @@ def test_a_kept_decision_is_that_of_the_interpreter(ruleset: Ruleset, data: st.D
             assert snapshot.outcome(rule) == decide(rule, context, ruleset.reading, ruleset.measures)
 
 
+@pytest.mark.slow
 @settings(deadline=None)
 @given(small_rulesets(measures=True, constraints=False, assumptions=False), st.data())
 def test_equal_contexts_share_their_outcomes(ruleset: Ruleset, data: st.DataObject) -> None:

@@ -17,6 +17,7 @@ from tests.support.robots import Log, listing_2
 from tests.support.strategies import contexts, rulesets
 
 
+@pytest.mark.slow
 @given(st.data())
 def test_decisions_and_conflicts_are_those_of_brute_force(data: st.DataObject) -> None:
     ruleset = data.draw(rulesets(always=True))
@@ -29,6 +30,7 @@ def test_decisions_and_conflicts_are_those_of_brute_force(data: st.DataObject) -
     assert (conflict(ruleset, context) is not None) == brute.conflicts(ruleset, context)
 
 
+@pytest.mark.slow
 @given(st.data())
 def test_a_robot_executes_what_is_due_whatever_the_changes_before(data: st.DataObject) -> None:
     ruleset = data.draw(rulesets(labels=False, always=True))

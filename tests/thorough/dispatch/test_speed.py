@@ -20,6 +20,7 @@ sys.exit("\\n".join(str(bound) for bound in bounds if not bound.kept) or 0)
 """
 
 
+@pytest.mark.speed
 @pytest.mark.parametrize(
     ("part", "rounds"),
     [("by_size", 60), ("against_global_activation", 60), ("changes", 80), ("change_and_dispatch", 60)],

@@ -39,6 +39,7 @@ def pigeons(count):
 # Every family of hard texts ---------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", QUICK)
 def test_a_hard_text_ends_within_its_budget_of_steps_and_always_at_the_same_place(monkeypatch, name):
     monkeypatch.setattr(budget, "FILE", 150_000)
@@ -116,6 +117,7 @@ def test_an_exclusive_beside_constraints_that_share_its_names_gives_what_its_pai
 # Fair shares ------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_one_hard_question_does_not_hide_what_others_find(monkeypatch):
     monkeypatch.setattr(budget, "FILE", 100_000)
     hard = adversarial.pigeonhole(9, 0).strip().removeprefix("ASSUME ")
@@ -164,6 +166,7 @@ def test_assumptions_known_to_contradict_are_reported_though_not_as_few_as_can_b
     assert "some of these assumptions may contradict each other without the rest" in finding.note
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(small_rulesets(measures=True), st.integers(0, 3_000))
 def test_what_is_decided_with_little_is_what_is_decided_with_enough(ruleset, steps):

@@ -87,6 +87,7 @@ def test_four_ways_agree(ruleset, skip):
         assert frozenset(evaluation.due(ruleset, context).literals) == brute.due(ruleset, context)
 
 
+@pytest.mark.slow
 @settings(max_examples=100, deadline=None)
 @given(small_rulesets(measures=True, rules=2))
 def test_propagation_and_evaluation_agree_on_measures(ruleset):
@@ -118,6 +119,7 @@ def test_entail_is_definition_1_and_the_constraints(ruleset):
         }
 
 
+@pytest.mark.slow
 @settings(max_examples=100, deadline=None)
 @given(small_rulesets(measures=True, rules=3))
 def test_nothing_is_given_to_measures_without_a_value(ruleset):
@@ -130,6 +132,7 @@ def test_nothing_is_given_to_measures_without_a_value(ruleset):
         assert frozenset(evaluation.due(ruleset, without).literals) == due
 
 
+@pytest.mark.slow
 @settings(max_examples=100, deadline=None)
 @given(small_rulesets(rules=2, measures=True))
 def test_the_linear_clauses_say_what_the_written_out_formulas_say(ruleset):
@@ -166,6 +169,7 @@ def test_clauses_are_linear_in_the_hedges(reading, hedges):
     assert sum(map(len, encoder.clauses)) <= 40 * hedges
 
 
+@pytest.mark.slow
 @given(small_rulesets(measures=True))
 def test_sympy_formulas_read_as_the_guards_do(ruleset):
     """The written-out formulas hold a symbol for every name that the guard does."""

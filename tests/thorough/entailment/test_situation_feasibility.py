@@ -40,6 +40,7 @@ def cannot_be(triggers, conditions):
     return bool(broken_assumptions(RULESET, context)) or not all(related)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("triggers", ["", "A", "AB"])
 @pytest.mark.parametrize("measures", [{}, {"level": "low"}, {"n": 8}, {"n": 9}, {"level": "high", "n": 3}])
 def test_all_situations(triggers, measures):

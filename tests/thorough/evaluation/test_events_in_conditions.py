@@ -65,6 +65,7 @@ def test_a_trigger_is_no_condition_to_report() -> None:
     assert "Fire" not in robot().vocabulary
 
 
+@pytest.mark.slow
 @given(st.data())
 @settings(max_examples=100)
 def test_dispatches_agree_with_brute_force(data: st.DataObject) -> None:

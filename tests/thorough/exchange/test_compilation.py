@@ -172,6 +172,7 @@ def _timed(rules: int) -> str:
     )
 
 
+@pytest.mark.speed
 @pytest.mark.parametrize("form", FORMS)
 def test_the_work_grows_with_the_rules(form):
     few, many = parse(_timed(20)), parse(_timed(200))

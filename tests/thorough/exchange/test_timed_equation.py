@@ -179,6 +179,7 @@ def _side(text: str, context: Context) -> Fraction:
     return Fraction(SCALE.index(given) if given in SCALE else given)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["smtlib", "sympy"])
 def test_formulas_are_true_where_the_evaluator_allows(form):
     for number, (case, context, occurs) in enumerate(situations()):

@@ -19,7 +19,7 @@ from sleec_runtime.language import load
 from sleec_verify.certificates import checker
 from sleec_verify.certificates.directory import write_folder
 from sleec_verify.cli.cache.store import Cache
-from sleec_verify.cli.scope import Scope
+from sleec_verify.encoding.scope import Scope
 from sleec_verify.files.placement import write_new, write_whole
 from sleec_verify.files.temporary import put_in_place
 from sleec_verify.results.finding import CheckResult, Proved

@@ -40,6 +40,7 @@ def _words(rules: str, steps: int, relations: str = "", head: str = HEAD) -> lis
     return list(in_words(finding.strategy))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("seed", "kind"),
     [*((n, "") for n in range(150)), *((n, "named") for n in range(60)), *((n, "lengths") for n in range(60))],

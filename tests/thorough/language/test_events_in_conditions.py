@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import find
+from hypothesis import Phase, find, settings
 
 from sleec_runtime.errors import LanguageError
 from sleec_runtime.language import parse, print_ruleset
 from sleec_runtime.model import Atom, formulas_of, leaves
 from tests.support.strategies import rulesets
+
+# Any example will do.
+UNSHRUNK = settings(phases=[Phase.generate])
 
 
 def kinds(text: str) -> dict[str, str]:
@@ -74,5 +77,5 @@ def test_what_is_no_event_in_a_condition_stays_refused(text: str, message: str) 
 
 
 def test_random_rulesets_have_such_conditions() -> None:
-    found = find(rulesets(max_rules=2), lambda ruleset: "trigger" in kinds(print_ruleset(ruleset)).values())
+    found = find(rulesets(max_rules=2), lambda one: "trigger" in kinds(print_ruleset(one)).values(), settings=UNSHRUNK)
     assert parse(print_ruleset(found)).rules == found.rules

@@ -88,6 +88,7 @@ def test_damaged_rules_of_the_paper(text: str) -> None:
     parses_or_complains(text)
 
 
+@pytest.mark.slow
 @given(st.data(), rulesets(max_rules=2, comments=True))
 def test_damaged_rulesets(data: st.DataObject, ruleset: Ruleset) -> None:
     parses_or_complains(data.draw(mutations(print_ruleset(ruleset))))

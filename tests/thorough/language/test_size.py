@@ -20,6 +20,7 @@ def many_rules(count: int) -> str:
     )
 
 
+@pytest.mark.speed
 def test_time_grows_with_the_number_of_rules() -> None:
     small, large = many_rules(400), many_rules(4000)
     assert grows_in_proportion(lambda: parse(small), lambda: parse(large), 10)

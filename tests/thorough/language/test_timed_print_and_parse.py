@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -13,6 +14,7 @@ from tests.support.timed_language_strategies import timed_rulesets
 from tests.thorough.language.test_mutations import mutations, parses_or_complains
 
 
+@pytest.mark.slow
 @settings(max_examples=100)
 @given(timed_rulesets())
 def test_parsing_undoes_printing(ruleset: Ruleset) -> None:
@@ -22,6 +24,7 @@ def test_parsing_undoes_printing(ruleset: Ruleset) -> None:
     assert print_ruleset(again) == text
 
 
+@pytest.mark.slow
 @settings(max_examples=100)
 @given(timed_rulesets())
 def test_no_comment_is_lost(ruleset: Ruleset) -> None:
@@ -30,6 +33,7 @@ def test_no_comment_is_lost(ruleset: Ruleset) -> None:
     assert sorted(re.findall("//.*", kept)) == sorted(re.findall("//.*", text))
 
 
+@pytest.mark.slow
 @given(st.data(), timed_rulesets())
 def test_damaged_rulesets(data: st.DataObject, ruleset: Ruleset) -> None:
     parses_or_complains(data.draw(mutations(print_ruleset(ruleset))))

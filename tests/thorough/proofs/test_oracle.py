@@ -60,11 +60,13 @@ def test_every_rule_of_up_to_two_hedges(oracle: Path) -> None:
     assert compare(oracle, single_rules()) == 30_798
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("hedges", "names", "contexts"), ALL)
 def test_every_two_rules(oracle: Path, hedges: tuple[int, int], names: tuple[str, ...], contexts: int) -> None:
     assert compare(oracle, pairs(hedges, names)) == contexts
 
 
+@pytest.mark.slow
 @given(ruleset=rulesets(domains=False), data=st.data())
 @settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 def test_measures_as_conditions(oracle: Path, ruleset: Ruleset, data: st.DataObject) -> None:

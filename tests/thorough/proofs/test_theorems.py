@@ -92,6 +92,7 @@ WHEN the bell rings AND Age = 18 AND NOT asleep THEN open the door
 """
 
 
+@pytest.mark.slow
 @pytest.mark.timeout(600)
 def test_what_is_written_is_proved_and_only_that(
     oracle: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]

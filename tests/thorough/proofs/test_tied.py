@@ -73,6 +73,7 @@ def test_the_theory_and_the_check_find_the_same(oracle: Path, what: str) -> None
     assert 20 < sum(found) < 130
 
 
+@pytest.mark.slow
 @given(ruleset=rulesets())
 @settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 def test_with_measures_and_domains_too(oracle: Path, ruleset: Ruleset) -> None:

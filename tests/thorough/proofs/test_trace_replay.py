@@ -29,6 +29,7 @@ def traces_of(ruleset: Ruleset, untimed: Untimed = "at") -> list[CheckTrace]:
     return [trace for one in rebuild(ruleset, None, untimed) for trace in one.traces]
 
 
+@pytest.mark.slow
 @each_study
 def test_both_evaluators_confirm_the_traces_of_studies(oracle: Path, path: Path) -> None:
     with OracleEvaluator(oracle) as evaluator:

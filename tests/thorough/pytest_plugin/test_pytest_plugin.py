@@ -75,7 +75,7 @@ def test_a_target_is_for_its_own_ruleset_only(run) -> None:
         ("robot.py:broken", "*raised RuntimeError: no arm*"),
         ("robot.py:absent", "*cannot be imported: AttributeError*"),
         ("there_is_none:make", "*cannot be imported: ModuleNotFoundError*"),
-        ("missing.py:make", "*there is no file*missing.py*"),
+        ("missing.py:make", "*file *missing.py does not exist*"),
     ],
 )
 def test_a_bad_target_is_an_error_of_collection(run, target: str, message: str) -> None:
@@ -106,7 +106,7 @@ def test_cases_beside_a_ruleset(run) -> None:
     [
         ("[[case]]", "[[cases]]", "*unknown key 'cases' (did you mean `case`?)*"),
         ("prohibitions", "prohibition", "*unknown key 'prohibition' (did you mean `prohibitions`?)*"),
-        ("[[case]]", "[[case", "*is no TOML*"),
+        ("[[case]]", "[[case", "*is not TOML*"),
         ("Undressed = true", "Undresed = true", "*case 1 (undressed): *Undresed*did you mean `Undressed`?*"),
         ("Undressed = true", "Undressed = 1", "*the condition `Undressed` must be true or false*"),
         ("Undressed = true", "Age = true", "*`Age` must be a number*"),
@@ -264,7 +264,7 @@ def test_a_ruleset_that_is_not_there_is_a_usage_error(run, pytester: pytest.Pyte
     pytester.makepyfile(test_any="def test(): pass")
     for arguments in (["--sleec-ruleset", "nope.sleec"], ["-o", "sleec_ruleset=nope.sleec"]):
         result = run("test_any.py", *arguments)
-        result.stderr.fnmatch_lines(["*there is no file*nope.sleec*"])
+        result.stderr.fnmatch_lines(["*file *nope.sleec does not exist*"])
         assert result.ret == pytest.ExitCode.USAGE_ERROR
 
 

@@ -33,6 +33,7 @@ FORMULAS = st.recursive(
 CONES = RulesetIndex(parse("MEASURE x: number\nWHEN t AND x < 3 THEN o\n"))
 
 
+@pytest.mark.slow
 @settings(max_examples=600)
 @given(FORMULAS)
 def test_forced_literals_are_the_smallest_situation(formula) -> None:
@@ -76,6 +77,7 @@ def test_what_is_forced(formula, literals, least) -> None:
     assert (propagate_units(formula).literals, propagate_units(formula).least()) == (literals, least)
 
 
+@pytest.mark.slow
 @settings(max_examples=100)
 @given(small_rulesets(assumptions=False, measures=True, rules=6, hedges=3, nested=False))
 def test_the_readings_of_rules_of_one_shape_part_as_those_of_each_alone(ruleset) -> None:
@@ -124,7 +126,7 @@ def test_random_rules_are_found_the_same_with_and_without(monkeypatch: pytest.Mo
     assert found() == quick
 
 
-@pytest.mark.slow
+@pytest.mark.speed
 @pytest.mark.parametrize(
     ("rules", "bound"), [(checking.FEW, checking.BOUND_FEW), (checking.MANY, checking.BOUND_MANY)], ids=["few", "many"]
 )

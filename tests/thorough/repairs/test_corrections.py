@@ -26,6 +26,7 @@ REPAIRED = {"SLEEC506": "\nR0_2 when", "SLEEC507": "s = hi", "SLEEC508": "s > lo
 KEEPS_MEANING = ("SLEEC506", "SLEEC507", "SLEEC508", "SLEEC513")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("code", PLANTED)
 def test_a_planted_mistake_is_corrected(code: str) -> None:
     number = 0

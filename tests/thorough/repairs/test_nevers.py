@@ -26,6 +26,7 @@ def with_never(seed: int) -> str:
     return "\n".join(lines)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("start", range(0, 60, 20))
 def test_a_repair_changes_what_it_announces_and_keeps_comments(start: int) -> None:
     kinds = set()

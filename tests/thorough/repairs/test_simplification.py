@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import given, settings
 
 from sleec_runtime.language import parse, print_ruleset
@@ -11,6 +12,7 @@ from tests.support import brute_force
 from tests.support.small_rulesets import small_rulesets
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(small_rulesets(rules=4, hedges=2, nested=False))
 def test_simplifications_keep_the_meaning(ruleset):

@@ -26,6 +26,7 @@ def with_conflict(seed: int) -> str:
     return "MEASURE x: integer\n\n" + "\n".join(rules)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("start", range(0, 60, 20))
 def test_a_repair_changes_what_it_announces(start: int) -> None:
     kinds = set()

@@ -28,6 +28,7 @@ def _files() -> Iterable[object]:
         yield pytest.param(None, id="published", marks=published_only)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", [*_files()])
 def test_issues_have_repairs(path: Path) -> None:
     ruleset, by_name = checked(path)

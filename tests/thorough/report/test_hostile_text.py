@@ -125,6 +125,7 @@ def lines(ran: Ran) -> tuple[int, int]:
     return ran.out.count("\n"), ran.err.count("\n")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", FORMATS)
 @given(name=file_names)
 def test_check_of_a_file(form: str, name: str, folder: Path) -> None:
@@ -195,6 +196,10 @@ REPORTS = {
     "certify --key": "certify good.sleec --check X --key X.txt",
     "conform": "conform X.py --ruleset X.sleec",
     "conform, no target": "conform X --ruleset good.sleec",
+    "audit": "audit X.jsonl --ruleset good.sleec --format concise",
+    "audit, no log": "audit X --ruleset good.sleec",
+    "audit --mapping": "audit X.jsonl --ruleset good.sleec --mapping X.txt",
+    "audit --state": "audit X.jsonl --ruleset good.sleec --state X.txt",
     "rules": "rules X",
     "no command": "X",
     "no option": "check --X good.sleec",
@@ -208,7 +213,7 @@ REPORTS = {
 @settings(max_examples=25)
 @given(name=file_names)
 def test_what_people_read(role: str, name: str, folder: Path) -> None:
-    files = {"X.sleec": "WHEN A  THEN B\n", "X.txt": CONFLICT, "X.py": ROBOT}
+    files = {"X.sleec": "WHEN A  THEN B\n", "X.txt": CONFLICT, "X.py": ROBOT, "X.jsonl": '{"time": 0, "event": "E"}\n'}
     _repository(folder)
     for known, text in files.items():
         (folder / known.replace("X", name)).write_text(text, encoding="utf-8")
@@ -285,9 +290,32 @@ def test_conform(form: str, name: str, label: str, folder: Path) -> None:
     (folder / path).unlink()
 
 
+@pytest.mark.parametrize("form", FORMATS)
+@settings(max_examples=25)
+@given(name=file_names, text=anything)
+def test_audit(form: str, name: str, text: str, folder: Path) -> None:
+    log = [
+        {"time": 0, "event": text},
+        {"time": 1, "conditions": {text: text, "Low": text}},
+        {"time": 2, "domain": text},
+        {"time": 3, "topic": text, "message": {text: text}},
+        {"time": 4, "topic": "/t", "message": {text: text}},
+        {"time": 5, text: text},
+    ]
+    lines = "".join(f"{json.dumps(one)}\n" for one in log)
+    (folder / f"{name}.jsonl").write_text(lines + text, encoding="utf-8", errors="surrogatepass")
+    (folder / "rules.sleec").write_text("MEASURE Low: number\nWHEN A THEN B UNLESS Low > 1\n", encoding="utf-8")
+    (folder / "m.toml").write_text('measures.Low = {topic = "/t", field = "x"}\n', encoding="utf-8")
+    options = ("--ruleset", "rules.sleec", "--mapping", "m.toml", "--format", form)
+    found = ran("audit", f"./{name}.jsonl", *options)
+    assert_harmless(found.err)
+    assert_valid(form, found.out)
+    (folder / f"{name}.jsonl").unlink()
+
+
 def test_colours_are_those_of_the_palette_only(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A name cannot hold a colour, even where there are colours."""
-    monkeypatch.setattr("sleec_verify.report.palette.Palette.of", lambda _: Palette(coloured=True))
+    monkeypatch.setattr("sleec_verify.report.palette.Palette.of", lambda *_: Palette(coloured=True))
     (folder / "\x1b[32mgood.sleec").write_text(CONFLICT, encoding="utf-8")
     found = ran("check", "\x1b[32mgood.sleec")
     assert r"\x1b[32mgood.sleec:1:1: " + "\033[1;31merror[SLEEC101]\033[0m" in found.out

@@ -56,6 +56,7 @@ def history(world: World) -> list[object]:
     return [*seen, world.instants, list(map(str, world.refusals)), failures]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("block", range(4))
 def test_a_run_with_restarts_is_the_run_without(block: int) -> None:
     pending = 0

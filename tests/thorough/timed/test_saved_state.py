@@ -302,7 +302,7 @@ def test_whatever_is_changed_in_a_snapshot_is_refused_or_harmless(snapshot: Any)
         (("pending", 0, "obligation"), "Vacuum", "should be CallNurse, which is at its path"),
         (("pending", 0, "path"), [0, "otherwise"], "should be a path to an obligation of the rule"),
         (("pending", 0, "path"), [0, "else", 0], "should be a whole number from 0 to -1"),
-        (("pending", 0, "state"), "done", "should be a state of what is pending"),
+        (("pending", 0, "state"), "done", "should be a state of a pending obligation"),
         (("pending", 0, "broken"), True, "should be true for a prohibition only"),
         (("pending", 0, "starts"), 1, "of what is waiting"),
         (("pending", 0, "decision"), 99, "should be a whole number from 0 to"),

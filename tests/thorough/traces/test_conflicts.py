@@ -204,6 +204,7 @@ def examples(first: int, last: int) -> int:
     )
 
 
+@pytest.mark.slow
 def test_examples_of_an_exact_automaton() -> None:
     assert examples(0, 20) <= 1
 
@@ -267,6 +268,7 @@ def agreement(seeds: range, rules: Callable[[int], str] = random_rules) -> int:
     return undecided
 
 
+@pytest.mark.slow
 def test_agreement_with_explicit_states() -> None:
     assert agreement(range(60)) <= 1
 

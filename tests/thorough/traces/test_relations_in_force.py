@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from sleec_verify.checks import run_checks
 from sleec_verify.results.finding import Unknown
 from tests.support.timed_strategies import timed_ruleset
@@ -20,6 +22,7 @@ def test_the_values_that_a_relation_of_the_history_requires_are_shown() -> None:
     assert all(moments[-1].conditions["m"] for moments in begun if moments[-1].time - moments[0].time < 3)
 
 
+@pytest.mark.slow
 def test_the_replay_confirms_each_conflict() -> None:
     count = 0
     for seed in range(400):

@@ -150,7 +150,8 @@ def test_neither_a_constant_in_braces_nor_a_measure_is_a_place_in_a_scale():
             )
 
 
-def test_ten_megabytes_of_rules_are_read_in_time_linear_in_their_size():
+@pytest.mark.speed
+def test_ten_thousand_rules_are_read_in_time_linear_in_their_size():
     line = "R{} when A and ({{risk}} > low) then B within 5 minutes unless {{m}} then C\n"
     small, large = ("".join(line.format(n) for n in range(size)) for size in (1_000, 10_000))
     assert len(rules(large).rules) == 10_000

@@ -183,24 +183,28 @@ def test_rules(pair) -> None:
     agree(*pair)
 
 
+@pytest.mark.slow
 @settings(max_examples=150)
 @given(CONSTRAINED)
 def test_constraints_and_assumptions(pair) -> None:
     agree(*pair)
 
 
+@pytest.mark.slow
 @settings(max_examples=100)
 @given(TIED)
 def test_triggers_that_assumptions_tie(pair) -> None:
     agree(*pair)
 
 
+@pytest.mark.slow
 @settings(max_examples=100)
 @given(forbidding_otherwise(FORBIDDING))
 def test_constraints_that_leave_nothing_to_do(pair) -> None:
     agree(*pair)
 
 
+@pytest.mark.slow
 @settings(max_examples=100)
 @given(st.data(), FORBIDDING)
 def test_the_order_of_constraints_and_of_their_literals(data, old) -> None:

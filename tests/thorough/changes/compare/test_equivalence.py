@@ -31,6 +31,7 @@ def test_a_ruleset_is_equivalent_to_itself(path: Path) -> None:
     assert found == Difference(found.old, found.new, same=found.same)
 
 
+@pytest.mark.slow
 @each_study
 def test_a_study_is_equivalent_to_itself_and_stricter_than_without_a_rule(path: Path) -> None:
     study = load(path)

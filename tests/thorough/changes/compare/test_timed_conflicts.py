@@ -83,6 +83,7 @@ def conflicts_of_rules(text: str) -> set[frozenset[str]]:
     return {rules for rules in every if not any(fewer < rules for fewer in every)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(40))
 def test_random_edits_against_the_list_of_all_states(seed: int) -> None:
     """No smallest set of rules in conflict appears or disappears unreported."""

@@ -20,6 +20,7 @@ def _relation(old: str, new: str) -> Relation:
     return relation(found.more, found.less, bool(found.conflicts), bool(found.undecided))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(40))
 def test_clauses_of_one_response_are_compared_exactly(seed: int) -> None:
     random = Random(seed)

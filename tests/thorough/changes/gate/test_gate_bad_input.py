@@ -58,9 +58,9 @@ def test_its_own_file_comes_first(cli: Cli, repository: Repository) -> None:
     [
         ([], "name the base revision"),
         (["--base", "mian"], "did you mean main?"),
-        (["--base", "main", "--config", "nothing.toml"], "there is no file nothing.toml"),
-        (["--base", "main", "--config", "broken.toml"], "is no TOML"),
-        (["--base", "main", "--baseline", "nothing.json"], "there is no baseline nothing.json"),
+        (["--base", "main", "--config", "nothing.toml"], "file nothing.toml does not exist"),
+        (["--base", "main", "--config", "broken.toml"], "is not TOML"),
+        (["--base", "main", "--baseline", "nothing.json"], "baseline nothing.json does not exist"),
         (["--base", "main", "--summary", "a.sleec"], "exists and is not a summary"),
         (["--base", "main", "nothing.sleec"], "there is no .sleec file at or below nothing.sleec"),
         (["--write-baseline"], "name the baseline file"),

@@ -90,7 +90,7 @@ def test_names_mean_files_of_the_repository(
     ran = cli("gate", "--base", "main")
     assert ran.code == 2
     assert "standard input" not in ran.err
-    assert "there is no file or folder" in ran.err if key == "code" else f"{name}" in ran.err
+    assert f"{name} does not exist" in ran.err if key == "code" else f"{name}" in ran.err
     repository.put(name, "nonsense" if key != "code" else "def")
     ran = cli("gate", "--base", "main")
     assert ran.code == 2
@@ -183,7 +183,7 @@ def test_a_configuration_may_be_a_link_inside_the_repository(target: str, cli: C
         assert ran.code == 0
         (repository.folder / OWN).unlink()
         (repository.folder / OWN).symlink_to("sub/b.sleec")
-        assert "is no TOML" in cli("gate", "--base", "main").err
+        assert "is not TOML" in cli("gate", "--base", "main").err
         repository.put("strict.toml", '[block]\nfindings = "error"\n')
         (repository.folder / OWN).unlink()
         (repository.folder / OWN).symlink_to("strict.toml")
@@ -215,10 +215,10 @@ def test_files_that_cannot_be_read(cli: Cli, repository: Repository, outside: Pa
         ran = cli("gate", "--base", "main", option, str(outside))
         assert (ran.code, f"{outside} cannot be read: " in ran.err) == (2, True)
     ran = cli("gate", "--write-baseline", "--baseline", "known.json", "--config", "nothing.toml")
-    assert (ran.code, "there is no file nothing.toml" in ran.err) == (2, True)
+    assert (ran.code, "file nothing.toml does not exist" in ran.err) == (2, True)
     (repository.folder / "known.json").symlink_to("nothing.json")
     ran = cli("gate", "--write-baseline", "--baseline", "known.json")
-    assert (ran.code, "there is no baseline known.json" in ran.err) == (2, True)
+    assert (ran.code, "baseline known.json does not exist" in ran.err) == (2, True)
     repository.put("large.json", " " * 1000)
     ran = cli("gate", "--write-baseline", "--baseline", "large.json", "--max-size", "200")
     assert (ran.code, "large.json cannot be read: it is larger than 200 bytes" in ran.err) == (2, True)

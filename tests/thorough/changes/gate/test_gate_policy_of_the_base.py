@@ -59,10 +59,10 @@ def test_a_base_that_lacks_its_files(cli: Cli, repository: Repository) -> None:
     repository.put(OWN, 'baseline = "known.json"\nassertions = ["must.txt"]\n')
     repository.keep(OWN)
     ran = cli("gate", "--base", "main")
-    assert (ran.code, "there is no baseline main:known.json" in ran.err) == (2, True)
+    assert (ran.code, "baseline main:known.json does not exist" in ran.err) == (2, True)
     repository.put("known.json", '{"version": 1, "findings": []}')
     ran = cli("gate", "--base", "main")
-    assert (ran.code, "there is no file main:must.txt" in ran.err) == (2, True)
+    assert (ran.code, "file main:must.txt does not exist" in ran.err) == (2, True)
     repository.put("must.txt", "never o\n")
     code, said = gated(cli)
     assert (code, policies(said)) == (1, {"policy-changes"})
@@ -91,9 +91,9 @@ def test_files_of_the_command_line(cli: Cli, repository: Repository, tmp_path_fa
     for files in (("--config", str(outside / "lax.toml")), ("--baseline", str(outside / "known.json"))):
         code, said = gated(cli, *files)
         assert (code, said["policy_changes"]) == (0, []), files
-    for option, message in (("--config", "there is no file"), ("--baseline", "there is no baseline")):
+    for option, kind in (("--config", "file"), ("--baseline", "baseline")):
         ran = cli("gate", "--base", "main", option, str(outside / "nothing"))
-        assert (ran.code, f"{message} {outside / 'nothing'}" in ran.err) == (2, True), ran
+        assert (ran.code, f"{kind} {outside / 'nothing'} does not exist" in ran.err) == (2, True), ran
     repository.put("ci/policy.toml", None)
     _, said = gated(cli, "--config", "ci/policy.toml")
     assert changes(said) == [("policy-changes", "ci/policy.toml", 'rulesets changes from ["a.sleec"] to ["."]')]

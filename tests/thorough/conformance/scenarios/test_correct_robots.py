@@ -73,6 +73,7 @@ def test_otherwise_is_due_if_the_clock_comes_before_a_completion() -> None:
     assert (fault.kind, fault.names, fault.at) == ("not required", ("B",), 5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [47, 80, 132])
 def test_random_robots_pass(seed: int) -> None:
     random = Random(seed)

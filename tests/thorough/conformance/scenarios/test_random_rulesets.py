@@ -68,6 +68,7 @@ def faults(seed: int) -> int:
     return rejected
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("block", range(4))
 def test_the_runtime_passes(block: int) -> None:
     rejected = [faults(seed) for seed in range(block * 150, block * 150 + 150)]

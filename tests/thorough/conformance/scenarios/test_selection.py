@@ -52,6 +52,7 @@ def test_scenarios_are_lawful_and_reach_their_goals(seed: int) -> None:
                 assert f"{clause}: {response}" in windows or f"{clause}: {met} met" in windows or "within" not in met
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("block", range(4))
 def test_no_scenario_causes_what_only_the_robot_does(block: int) -> None:
     """These rules have no relations, so nothing but a rule requires an obligation."""

@@ -171,6 +171,7 @@ def test_correct_robots_are_accepted(robot: Robot) -> None:
     assert kinds(robot.ruleset, robot=robot.text()) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mistake", MISTAKES, ids=lambda mistake: mistake.__name__)
 @settings(max_examples=15, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
 @given(data=st.data())

@@ -98,6 +98,7 @@ def test_findings_carry_the_place_in_the_code() -> None:
     assert text in ("def ä", "self.stay()")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("module", ["asyncio", "http", "sleec_runtime", "contextpy3"])
 def test_any_code_is_read_to_its_end(module: str) -> None:
     code = python_files(module)

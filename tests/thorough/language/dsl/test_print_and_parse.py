@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from random import Random
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -13,6 +14,7 @@ from sleec_runtime.model import Ruleset
 from tests.support.dsl_strategies import dsl_rulesets
 
 
+@pytest.mark.slow
 @settings(max_examples=150)
 @given(dsl_rulesets())
 def test_parsing_undoes_printing(ruleset: Ruleset) -> None:
@@ -23,6 +25,7 @@ def test_parsing_undoes_printing(ruleset: Ruleset) -> None:
     assert print_ruleset(again) == text
 
 
+@pytest.mark.slow
 @settings(max_examples=80)
 @given(dsl_rulesets())
 def test_the_dialect_changes_nothing_that_is_said(ruleset: Ruleset) -> None:
@@ -31,6 +34,7 @@ def test_the_dialect_changes_nothing_that_is_said(ruleset: Ruleset) -> None:
     assert print_ruleset(replace(again, dialect="sleec-tk")) == print_ruleset(bare)
 
 
+@pytest.mark.slow
 @settings(max_examples=80)
 @given(dsl_rulesets(), st.randoms(use_true_random=False))
 def test_empty_lines_between_statements_stay(ruleset: Ruleset, random: Random) -> None:

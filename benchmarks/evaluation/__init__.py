@@ -1,0 +1,1 @@
+"""The evaluation of the paper (Section 5), repeated: correctness, efficiency, maintainability, and robustness."""

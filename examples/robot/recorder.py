@@ -1,0 +1,19 @@
+"""The process that records the mission: python -m examples.robot.recorder LOG"""
+
+from __future__ import annotations
+
+import sys
+
+from examples.robot.process import run
+from examples.robot.tasks import ACTIONS
+from sleec_runtime.ros import RecorderNode
+from sleec_runtime.ros.messages import ConditionsUpdate, DomainChange, LayersUpdate, MissionEvent
+
+TOPICS = (
+    *(message.topic for message in (DomainChange, ConditionsUpdate, LayersUpdate, MissionEvent)),
+    ACTIONS,
+)
+
+if __name__ == "__main__":
+    # It waits a little, so that the record has each trigger before what the robot does.
+    run(lambda transport: RecorderNode(transport, sys.argv[1], TOPICS), settle=0.2)

@@ -1,0 +1,90 @@
+/** The situation with its switches, and what the rules require in it. */
+
+import { useState } from "preact/hooks";
+import { server } from "../api/requests";
+import { t } from "../messages";
+import { analysis, goodText, names, waiting } from "../state/analysis";
+import { ruleAtCursor } from "../state/selection";
+import { clear, domain, reading, situation } from "../state/situation";
+import { Chosen } from "./Chosen";
+import { Obligations } from "./Obligations";
+import { SaveCase } from "./SaveCase";
+import { Search } from "./Search";
+import { Switches } from "./Switches";
+
+const MANY_NAMES = 16;
+
+export function Situation() {
+  const [filter, setFilter] = useState("");
+  const [local, setLocal] = useState(false);
+  const all = names.value;
+  const many = all.triggers.length + all.conditions.length > MANY_NAMES;
+  return (
+    <div class="situation">
+      <Search />
+      <p class="intro">{t("situationIntro")}</p>
+      <div class="toolbar">
+        {many && (
+          <>
+            <label>
+              {t("filter")}
+              <input type="search" value={filter} onInput={(event) => setFilter(event.currentTarget.value)} />
+            </label>
+            <label>
+              {t("ruleFilter")}
+              <select value={local ? "cursor" : "all"} onChange={(event) => setLocal(event.currentTarget.value === "cursor")}>
+                <option value="all">{t("allNames")}</option>
+                <option value="cursor">{t("atCursor")}</option>
+              </select>
+            </label>
+          </>
+        )}
+        <button type="button" disabled={situation.value.triggers.length + Object.keys(situation.value.conditions).length === 0} onClick={clear}>
+          {t("clear")}
+        </button>
+      </div>
+      <Chosen />
+      <div class="columns">
+        <Switches filter={filter} rule={local ? ruleAtCursor.value : null} />
+        <section class="answer" aria-label={t("answer")}>
+          {server.value !== "here" && <p class="old">{t("answerWaits")}</p>}
+          {server.value === "here" && waiting.value && goodText.value !== null && <p class="old">{t("answerOld")}</p>}
+          <Obligations />
+        </section>
+      </div>
+      <Scope />
+      <SaveCase />
+    </div>
+  );
+}
+
+/** The reading of chains of exceptions, and the domain. */
+function Scope() {
+  const domains = analysis.value.domains ?? [];
+  return (
+    <details class="settings">
+      <summary>{t("settings")}</summary>
+      <label>
+        {t("reading")}
+        <select value={reading.value ?? ""} onChange={(event) => (reading.value = event.currentTarget.value || null)}>
+          <option value="">{t("readingOfFile")}</option>
+          <option value="cascade">{t("readingCascade")}</option>
+          <option value="priority">{t("readingPriority")}</option>
+        </select>
+      </label>
+      {domains.length > 0 && (
+        <label>
+          {t("domain")}
+          <select value={domain.value ?? ""} onChange={(event) => (domain.value = event.currentTarget.value || null)}>
+            <option value="">{t("allDomains")}</option>
+            {domains.map((name) => (
+              <option key={name} value={name}>
+                {name}
+              </option>
+            ))}
+          </select>
+        </label>
+      )}
+    </details>
+  );
+}

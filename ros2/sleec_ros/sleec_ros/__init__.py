@@ -1,0 +1,1 @@
+"""Nodes of sleec-runtime as programs of ROS 2."""

@@ -1,0 +1,93 @@
+"""The statements that apply in one domain, by the names that they depend on."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from itertools import combinations
+from typing import NamedTuple, Union
+
+from sleec_runtime.audit.moment import Moment
+from sleec_runtime.evaluation.formula_truth import Situation
+from sleec_runtime.evaluation.instant_formulas import instant_formula
+from sleec_runtime.model import (
+    And,
+    Assume,
+    Atom,
+    Context,
+    Effect,
+    EventRelation,
+    Exclusive,
+    Formula,
+    Lasting,
+    MeasureRelation,
+    Never,
+    Not,
+    Rule,
+    Ruleset,
+    leaves,
+    names_of,
+)
+
+InstantStatement = Union[Exclusive, Never, Assume, EventRelation, MeasureRelation, Effect]
+
+
+class Watched(NamedTuple):
+    """A constraint or relation as a `formula` that holds at every instant. `events` are the events in it, and `number`
+    is its place in the text."""
+
+    number: int
+    statement: InstantStatement
+    formula: Formula
+    events: frozenset[str]
+
+
+class DomainRules:
+    """The statements of `ruleset`, which are those of one domain."""
+
+    def __init__(self, ruleset: Ruleset) -> None:
+        self.ruleset = ruleset
+        self.by_trigger: dict[str, list[Rule]] = {}
+        for rule in ruleset.rules:
+            self.by_trigger.setdefault(rule.trigger, []).append(rule)
+        self.before: list[EventRelation] = []
+        self.lasting: list[Lasting] = []
+        self._by_name: dict[str, list[Watched]] = {}
+        for number, statement in enumerate(ruleset.statements):
+            if isinstance(statement, Lasting):
+                self.lasting.append(statement)
+            elif isinstance(statement, EventRelation) and statement.relation == "happenBefore":
+                self.before.append(statement)
+            elif isinstance(statement, (Exclusive, Never, Assume, EventRelation, MeasureRelation, Effect)):
+                formula = _formula(statement)
+                watched = Watched(number, statement, formula, events_in(formula))
+                for name in dict.fromkeys(names_of(formula)):
+                    self._by_name.setdefault(name, []).append(watched)
+
+    def watched(self, names: Iterable[str]) -> list[Watched]:
+        """The constraints and relations that depend on any of these names, in text order."""
+        found = {one.number: one for name in names for one in self._by_name.get(name, ())}
+        return [found[number] for number in sorted(found)]
+
+    def context(self, moment: Moment) -> Situation:
+        """The situation, in the open world, in which rules are decided at a moment."""
+        return Situation(Context(frozenset(moment.occurred), moment.conditions), self.ruleset.measures, None)
+
+    def situation(
+        self, moment: Moment, occurred: Collection[str], executed: Collection[str], formula: Formula
+    ) -> Situation:
+        """The situation, in the open world, in which a formula about a moment with these events is decided."""
+        done = {name: name in executed for name in events_in(formula)}
+        return Situation(Context(frozenset(occurred), moment.conditions), self.ruleset.measures, None, done)
+
+
+def events_in(formula: Formula) -> frozenset[str]:
+    """The events that a formula names."""
+    return frozenset(leaf.name for leaf in leaves(formula) if isinstance(leaf, Atom) and leaf.kind != "condition")
+
+
+def _formula(statement: InstantStatement) -> Formula:
+    if not isinstance(statement, Exclusive):
+        return instant_formula(statement)
+    # The names are obligations, also where one is a trigger, too.
+    pairs = combinations([Atom("obligation", name) for name in statement.names], 2)
+    return And(tuple(Not(And(pair)) for pair in pairs))

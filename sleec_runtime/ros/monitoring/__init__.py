@@ -1,0 +1,1 @@
+"""The nodes that observe a robot: the monitor and the recorder."""

@@ -1,0 +1,126 @@
+"""The transport through rclpy, for nodes in a ROS 2 workspace (Humble and Jazzy).
+
+rclpy is part of ROS 2 and is not on a package index. So tests run this module against a fake of the calls that it
+makes; see docs/dds.md.
+"""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections.abc import Sequence
+from typing import Any
+
+from sleec_runtime.ros.transport import Fields, Receive, Topic
+from sleec_runtime.ros.transport_errors import TransportUnavailable, UnknownMessageType, WrongFields
+
+_LOG = logging.getLogger("sleec_runtime.ros")
+
+
+class RclpyTransport:
+    """A `Transport` through a node of rclpy. It calls subscribers in one thread of its own.
+
+    `name` is the name of the ROS node, and `args` are its ROS arguments, such as ``["--ros-args", "-r", "__ns:=/a"]``.
+    Without `args`, those of the command line count. Raises TransportUnavailable without rclpy.
+    """
+
+    def __init__(self, name: str, args: Sequence[str] | None = None) -> None:
+        try:
+            import rclpy
+            from rclpy.context import Context
+            from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+        except ImportError as error:
+            raise TransportUnavailable(
+                "the package rclpy is missing", "source a ROS 2 workspace, as in `. /opt/ros/jazzy/setup.sh`"
+            ) from error
+        # A context of its own, so that the signal handlers of the program stay as they are.
+        self._context = Context()
+        rclpy.init(args=None if args is None else list(args), context=self._context)
+        self._node = rclpy.create_node(name, context=self._context)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self._node)
+        self._shutdown: type[BaseException] = ExternalShutdownException
+        self._closed = False
+        self._thread = threading.Thread(target=self._spin, name="sleec rclpy transport", daemon=True)
+        self._thread.start()
+
+    def publisher(self, topic: Topic) -> RclpyPublisher:
+        """A publisher on `topic`. Raises UnknownMessageType."""
+        kind = _message_class(topic.type)
+        return RclpyPublisher(self, kind, self._node.create_publisher(kind, topic.name, _qos(topic)))
+
+    def subscribe(self, topic: Topic, receive: Receive) -> None:
+        """Calls `receive` with each message. Raises UnknownMessageType."""
+        from rosidl_runtime_py.convert import message_to_ordereddict
+
+        def deliver(message: Any) -> None:
+            if not self._closed:
+                try:
+                    receive(message_to_ordereddict(message))
+                except Exception:  # noqa: BLE001 - the executor must continue
+                    _LOG.exception("a subscriber of %s failed", topic.name)
+
+        self._node.create_subscription(_message_class(topic.type), topic.name, deliver, _qos(topic))
+
+    def close(self) -> None:
+        self._closed = True
+        self._context.try_shutdown()
+        if self._thread is not threading.current_thread():
+            self._thread.join()
+
+    @property
+    def closed(self) -> bool:
+        return self._closed
+
+    def _spin(self) -> None:
+        try:
+            self._executor.spin()
+        except self._shutdown:
+            pass
+        finally:
+            self._node.destroy_node()
+
+
+class RclpyPublisher:
+    """A `Publisher` through rclpy."""
+
+    def __init__(self, transport: RclpyTransport, kind: Any, publisher: Any) -> None:
+        self._transport = transport
+        self._kind = kind
+        self._publisher = publisher
+
+    def publish(self, fields: Fields) -> None:
+        """Sends a message. Fields that are not given have the default of their type. Raises WrongFields."""
+        from rosidl_runtime_py.set_message import set_message_fields
+
+        message = self._kind()
+        try:
+            set_message_fields(message, dict(fields))
+        except (AssertionError, AttributeError, OverflowError, TypeError, ValueError) as error:
+            raise WrongFields(f"the fields do not fit {self._kind.__name__}: {error}") from error
+        if not self._transport.closed:
+            self._publisher.publish(message)
+
+    def subscription_count(self) -> int:
+        """The number of subscriptions that discovery has found, in all processes."""
+        return 0 if self._transport.closed else int(self._publisher.get_subscription_count())
+
+
+def _message_class(name: str) -> Any:
+    from rosidl_runtime_py.utilities import get_message
+
+    try:
+        return get_message(name)
+    except (AttributeError, ModuleNotFoundError, ValueError) as error:
+        raise UnknownMessageType(name, (), "install and source the ROS package that defines it") from error
+
+
+def _qos(topic: Topic) -> Any:
+    from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+
+    return QoSProfile(
+        history=HistoryPolicy.KEEP_LAST,
+        depth=topic.depth,
+        reliability=ReliabilityPolicy.RELIABLE if topic.reliable else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if topic.latched else DurabilityPolicy.VOLATILE,
+    )

@@ -1,0 +1,1 @@
+"""Audits of recorded missions: readers of logs, and the results as findings."""

@@ -1,0 +1,98 @@
+"""Logs as JSON lines: one observation or message in each line (docs/audit.md)."""
+
+from __future__ import annotations
+
+import os
+import stat
+from collections.abc import Iterator
+from pathlib import Path
+from typing import BinaryIO
+
+from sleec_runtime.audit.observation import LONGEST_LINE, read_line
+from sleec_runtime.errors import MalformedObservation, UnreadableLog
+from sleec_runtime.support.messages import represent
+from sleec_verify.audit.readers.reader import Item, Position, Unreadable
+
+
+class JsonLines:
+    """The log in the file at `path`. A position is a list: the number of bytes before it, and that of lines."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    def read(self, start: Position = None) -> Iterator[tuple[Position, Item]]:
+        """See `Reader.read`. Empty lines are skipped.
+
+        If the first line is unreadable, the log has another form. A last line without a line break may be half written:
+        if it is unreadable, the position after it is that before it.
+        """
+        try:
+            with open(self.path, "rb", opener=_open_without_waiting) as file:
+                if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+                    raise UnreadableLog(f"{self.path} is not a regular file")
+                offset, number = self._resume(file, start)
+                while line := file.readline(LONGEST_LINE + 1):
+                    begin, offset, number = offset, offset + len(line), number + 1
+                    if len(line) > LONGEST_LINE:
+                        offset += _skip_rest(file, line)
+                    item = self._item(line, number)
+                    if isinstance(item, Unreadable) and not line.endswith(b"\n") and len(line) <= LONGEST_LINE:
+                        offset, number = begin, number - 1
+                    if item is not None:
+                        yield [offset, number], item
+                if os.fstat(file.fileno()).st_size < offset:
+                    raise UnreadableLog(f"{self.path} became shorter while it was read", "audit a copy of it")
+        except FileNotFoundError:
+            raise UnreadableLog(f"file {self.path} does not exist", "check its name and folder") from None
+        except OSError as problem:
+            raise UnreadableLog(f"{self.path} cannot be read: {problem.strerror}") from None
+
+    def fraction(self, position: Position) -> float:
+        """See `Reader.fraction`."""
+        size = self.path.stat().st_size
+        return min(1.0, _numbers(position)[0] / size) if size else 1.0
+
+    def _resume(self, file: BinaryIO, start: Position) -> tuple[int, int]:
+        offset, number = _numbers(start)
+        if offset:
+            file.seek(offset - 1)
+            if file.read(1) != b"\n":
+                raise UnreadableLog(f"{self.path} has changed since the position was saved", "audit it from the start")
+        return offset, number
+
+    def _item(self, line: bytes, number: int) -> Item | None:
+        if len(line) > LONGEST_LINE:
+            message, hint = f"it is longer than {LONGEST_LINE // 2**20} MiB", None
+        elif line.isspace():
+            return None
+        else:
+            try:
+                return read_line(line)
+            except MalformedObservation as error:
+                message, hint = error.message, error.hint
+        if number == 1:
+            raise UnreadableLog(f"{self.path} is not a log of JSON lines: in line 1, {message}", hint)
+        return Unreadable(f"line {number}", message, hint, number)
+
+
+def _numbers(position: Position) -> tuple[int, int]:
+    if position is None:
+        return 0, 0
+    if isinstance(position, list) and len(position) == 2:
+        offset, number = position
+        if isinstance(offset, int) and isinstance(number, int) and min(offset, number) >= 0:
+            return offset, number
+    raise UnreadableLog(f"{represent(position)} is not a position in a log of JSON lines")
+
+
+def _skip_rest(file: BinaryIO, line: bytes) -> int:
+    """Reads to the end of a long line, and returns the number of bytes."""
+    skipped = 0
+    while not line.endswith(b"\n") and (line := file.readline(LONGEST_LINE)):
+        skipped += len(line)
+    return skipped
+
+
+def _open_without_waiting(path: str, flags: int) -> int:
+    # Without this flag, opening a pipe for reading waits for a writer.
+    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))

@@ -1,0 +1,1 @@
+"""Decision tables of rules: which clause decides in which situations."""

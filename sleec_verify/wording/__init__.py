@@ -1,0 +1,1 @@
+"""Words and sentences for people: on the command line, in reports and on the page."""

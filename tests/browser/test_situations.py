@@ -1,0 +1,75 @@
+"""A user tries the rules in situations."""
+
+from __future__ import annotations
+
+from playwright.sync_api import expect
+
+from tests.browser.actions import editor, flip, write
+
+RULES = """READING priority
+MEASURE UserAge: number
+MEASURE Risk: low < high
+
+RULE curtains
+WHEN CurtainOpenRequest THEN OpenCurtains
+UNLESS UserUndressed IN WHICH CASE RefuseRequest AND ExplainWhy
+UNLESS UserAge < 16 IN WHICH CASE AskParents
+UNLESS Risk = high IN WHICH CASE NOT OpenCurtains
+"""
+
+
+def test_a_switch_changes_what_is_required(serve, show) -> None:
+    page = show(serve(RULES))
+    flip(page, "curtain open request")
+    answer = page.locator(".answer")
+    expect(answer).to_contain_text("“risk” and “user age” are not given")
+    expect(answer).to_contain_text("The robot must")
+    expect(answer.locator(".must")).to_have_text("The robot mustopen curtains")
+    expect(editor(page).locator(".mark-deciding").first).to_contain_text("WHEN")
+    flip(page, "user undressed")
+    expect(answer.locator(".must li")).to_have_text(["explain why", "refuse request"])
+    expect(answer.get_by_text("exception 1 applies")).to_be_visible()
+    expect(editor(page).locator(".mark-deciding").first).to_contain_text("UNLESS")
+    expect(answer.locator(".must li span").first).to_have_attribute("title", "ExplainWhy")
+
+
+def test_numbers_and_scales_count(serve, show) -> None:
+    page = show(serve(RULES))
+    flip(page, "curtain open request")
+    page.get_by_role("slider", name="user age").fill("12")
+    expect(page.locator(".answer .must li")).to_have_text(["ask parents"])
+    page.get_by_role("spinbutton", name="user age").fill("40")
+    page.get_by_role("combobox", name="risk").select_option("high")
+    expect(page.locator(".answer .must-not li")).to_have_text(["open curtains"])
+
+
+def test_the_answer_stays_while_a_rule_is_half_written(serve, show) -> None:
+    page = show(serve(RULES))
+    page.get_by_role("spinbutton", name="user age").fill("12")
+    flip(page, "curtain open request")
+    expect(page.locator(".answer .must")).to_be_visible()
+    write(page, RULES + "\nWHEN")
+    expect(page.locator(".answer").get_by_text("This answer is for the last complete text")).to_be_visible()
+    expect(page.locator(".answer .must")).to_be_visible()
+    write(page, RULES.replace("AskParents", "CallParents"))
+    expect(page.locator(".answer .must li")).to_have_text(["call parents"])
+
+
+def test_other_languages(serve, show) -> None:
+    page = show(serve(RULES))
+    page.get_by_label("Language").select_option("de")
+    expect(page.get_by_role("button", name="Speichern", exact=True)).to_be_visible()
+    flip(page, "curtain open request")
+    expect(page.locator(".answer")).to_contain_text("Der Roboter muss")
+    expect(page.locator(".answer .steps")).to_contain_text("„curtain open request“ tritt ein")
+    expect(page.locator(".verdict")).to_contain_text("Bewiesen: Die Regeln widersprechen einander nie.")
+    page.get_by_role("button", name="Zeigen", exact=True).click()
+    expect(page.locator(".search-answer")).to_contain_text("und sonst nichts")
+    page.get_by_label("Sprache").select_option("it")
+    expect(page.locator(".search-answer")).to_have_count(0)
+    expect(page.locator(".answer")).to_contain_text("Il robot deve")
+    expect(page.locator(".verdict")).to_contain_text("Dimostrato")
+    page.get_by_label("Lingua").select_option("de")
+    page.reload()
+    expect(page.get_by_role("button", name="Speichern", exact=True)).to_be_visible()
+    expect(page.locator("html")).to_have_attribute("lang", "de")
