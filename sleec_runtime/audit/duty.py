@@ -14,7 +14,7 @@ from sleec_runtime.audit.deviation import Triggered
 from sleec_runtime.evaluation.formula_truth import Situation
 from sleec_runtime.evaluation.hedge_chain import Undetermined, decide_chain
 from sleec_runtime.evaluation.trace import Untimed
-from sleec_runtime.model import Clause, Length, Obligation, Rational, Reading, Window, exact
+from sleec_runtime.model import LONGEST, Clause, Length, Obligation, Rational, Reading, Window, exact
 
 
 @dataclass(slots=True, eq=False)
@@ -139,6 +139,12 @@ class DutyMaker(NamedTuple):
         return tuple(self._task(obligation, since, situation) for obligation in decision.obligations)
 
 
+def within_reach(seconds: Rational) -> Rational:
+    """A distance in time, at most twice the time of the latest possible observation. Longer ones have the same effect,
+    and measures give numbers that a float cannot have."""
+    return max(-2 * LONGEST, min(seconds, 2 * LONGEST))
+
+
 def _seconds(length: Length, situation: Situation, missing: dict[str, None]) -> Rational | None:
     """The length in seconds; None if it depends on values that were not reported, which are added to `missing`."""
     values = {}
@@ -148,4 +154,4 @@ def _seconds(length: Length, situation: Situation, missing: dict[str, None]) -> 
             missing[name] = None
         else:
             values[name] = value
-    return length.seconds_where(values) if len(values) == len(length.measures) else None
+    return within_reach(length.seconds_where(values)) if len(values) == len(length.measures) else None

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from sleec_runtime.audit.constraints import deviation_of
 from sleec_runtime.audit.deviation import Deviation
 from sleec_runtime.audit.domain_rules import DomainRules
+from sleec_runtime.audit.duty import within_reach
 from sleec_runtime.audit.moment import Moment
 from sleec_runtime.evaluation.formula_truth import truth
 from sleec_runtime.evaluation.instant_formulas import conjunction, occurrence
@@ -68,7 +69,7 @@ class HistoryMonitor:
             values = {name: exact(moment.conditions.get(name)) for name in relation.duration.measures}
             known = {name: value for name, value in values.items() if value is not None}
             missing = [name for name in values if name not in known]
-            over = moment.time if missing else moment.time + relation.duration.seconds_where(known)
+            over = moment.time if missing else moment.time + within_reach(relation.duration.seconds_where(known))
         if held is None or missing:
             found = deviation_of(relation, condition, moment, None, situation)
             yield replace(found, missing=(*found.missing, *missing))

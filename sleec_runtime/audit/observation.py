@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any, Union
 
 from sleec_runtime.errors import MalformedObservation
 from sleec_runtime.language.common.formula_printer import print_number
-from sleec_runtime.model import NUMBER, Rational, Value, exact
+from sleec_runtime.model import LONGEST, NUMBER, Rational, Value, exact
 from sleec_runtime.support.messages import listed, represent
 
 if TYPE_CHECKING:
@@ -204,8 +204,8 @@ def _time(value: Mapping[str, Any]) -> Rational:
         raise MalformedObservation('the key "time" is missing', "give the time in seconds")
     given = value["time"]
     time = given if type(given) is Fraction else exact(given)
-    if time is None or time < 0:
-        raise MalformedObservation(f'"time" is a number of seconds, from 0 on; got {represent(given)}')
+    if time is None or not 0 <= time <= LONGEST:
+        raise MalformedObservation(f'"time" is a number of seconds, from 0 to {LONGEST:,}; got {represent(given)}')
     return time
 
 
@@ -261,4 +261,9 @@ def _text(value: object) -> str:
     if number is None:
         raise MalformedObservation(f"{represent(value)} has no form in JSON")
     text = print_number(number)
-    return repr(float(number)) if "/" in text else text
+    if "/" not in text:
+        return text
+    try:
+        return repr(float(number))
+    except OverflowError:
+        raise MalformedObservation(f"{represent(value)} has no form in JSON") from None

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, get_args
 
 from sleec_runtime.audit.auditor import Auditor
 from sleec_runtime.audit.deviation import Triggered
 from sleec_runtime.audit.duty import Duty, DutyMaker
 from sleec_runtime.audit.history import Span
-from sleec_runtime.audit.moment import Moment
+from sleec_runtime.audit.moment import UNKNOWN_DOMAIN, Moment
 from sleec_runtime.audit.quantiles import Quantiles
 from sleec_runtime.audit.response_times import Response, Times
-from sleec_runtime.errors import SnapshotRefused
+from sleec_runtime.errors import SnapshotRefused, WrongType
 from sleec_runtime.evaluation.formula_truth import Situation
 from sleec_runtime.evaluation.hedge_chain import Decision, walk
-from sleec_runtime.model import Context, Lasting, Ruleset, Value
+from sleec_runtime.evaluation.trace import Untimed
+from sleec_runtime.model import LONGEST, Context, Lasting, Ruleset, Value, fit
 from sleec_runtime.timed.plain_data import number_from_plain, number_to_plain
 
 FORMAT = 1
@@ -69,19 +70,20 @@ def restore(ruleset: Ruleset, state: Any) -> Auditor:
         if state["ruleset"] != _digest(ruleset):
             raise SnapshotRefused("the state is that of an audit of other rules", "audit the log from its start")
         return _restored(ruleset, state)
-    except (KeyError, TypeError, ValueError, IndexError, AttributeError, AssertionError):
+    except (KeyError, TypeError, ValueError, IndexError, AttributeError, AssertionError, WrongType):
         raise SnapshotRefused("the state of the audit is malformed", "audit the log from its start") from None
 
 
 def _restored(ruleset: Ruleset, state: Any) -> Auditor:
-    tolerance = number_from_plain(state["tolerance"])
-    auditor = Auditor(ruleset, tolerance=tolerance or 0, untimed=state["untimed"], chains=state["chains"])
+    untimed = state["untimed"]
+    assert untimed in get_args(Untimed)
+    auditor = Auditor(ruleset, tolerance=_time(state["tolerance"]), untimed=untimed, chains=bool(state["chains"]))
     contexts = [_values(ruleset, one) for one in state["contexts"]]
-    auditor.moment = _moment_from(state["moment"], contexts)
+    auditor.moment = _moment_from(ruleset, state["moment"], contexts)
     auditor.simultaneous = _names(state["simultaneous"])
     for one in state["duties"]:
         auditor.duties.resume(_duty_from(auditor, one, contexts))
-    auditor.constraints.group = [_moment_from(one, contexts) for one in state["group"]]
+    auditor.constraints.group = [_moment_from(ruleset, one, contexts) for one in state["group"]]
     auditor.history.is_late = bool(state["late"])
     auditor.history.first = {name: _time(time) for name, time in state["first"].items()}
     for number, begin, over, is_unknown in state["spans"]:
@@ -123,8 +125,13 @@ class _Contexts:
 
 
 def _values(ruleset: Ruleset, plain: Mapping[str, Any]) -> dict[str, Value]:
-    scales = {name for name, measure in ruleset.measures.items() if measure.kind == "scale"}
-    return {n: v if isinstance(v, bool) or n in scales else _time(v) for n, v in plain.items()}
+    values = {}
+    for name, value in plain.items():
+        measure = ruleset.measures.get(name)
+        assert measure is not None or name in ruleset.conditions
+        is_number = measure is not None and measure.kind != "scale"
+        values[name] = fit(name, _time(value) if is_number else value, measure)
+    return values
 
 
 def _duty(duty: Duty, contexts: _Contexts) -> dict[str, Any]:
@@ -146,11 +153,11 @@ def _duty_from(auditor: Auditor, plain: Any, contexts: list[dict[str, Value]]) -
     situation = Situation(context, ruleset.measures, None)
     decision = walk(ruleset.by_label[plain["rule"]], situation, ruleset.reading)
     assert isinstance(decision, Decision)
-    triggered = Triggered(_time(plain["time"]), plain["rule"], context, decision)
+    triggered = Triggered(_instant(plain["time"]), plain["rule"], context, decision)
     duties = tuple(DutyMaker(ruleset.reading, auditor.untimed).duties(triggered, situation))
     duty: Duty = duties[plain["number"]]
     for due, (met, at) in zip(duty.task.dues(), plain["dues"], strict=True):
-        due.met, due.at = met, _optional_time(at)
+        due.met, due.at = met, _instant(at) if met else _optional_time(at)
     return duty
 
 
@@ -167,10 +174,12 @@ def _moment(moment: Moment, contexts: _Contexts) -> dict[str, Any]:
     }
 
 
-def _moment_from(plain: Any, contexts: list[dict[str, Value]]) -> Moment:
+def _moment_from(ruleset: Ruleset, plain: Any, contexts: list[dict[str, Value]]) -> Moment:
+    domain = plain["domain"]
+    assert domain in (None, UNKNOWN_DOMAIN, *ruleset.domains) or not ruleset.domains
     return Moment(
-        _time(plain["time"]),
-        plain["domain"],
+        _instant(plain["time"]),
+        None if domain is None else _name(domain),
         contexts[plain["context"]],
         _names(plain["changed"]),
         _names(plain["occurred"]),
@@ -226,6 +235,14 @@ def _time(plain: object) -> Any:
     if number is None:
         raise ValueError(plain)
     return number
+
+
+def _instant(plain: object) -> Any:
+    """The time of an observation; that of a deadline can be later."""
+    time = _time(plain)
+    if time > LONGEST:
+        raise ValueError(plain)
+    return time
 
 
 def _optional_time(plain: object) -> Any:

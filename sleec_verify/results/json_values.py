@@ -138,5 +138,8 @@ def _value(value: Value) -> Json:
         return value
     from fractions import Fraction
 
-    near = float(value)
+    try:
+        near = float(value)
+    except OverflowError:
+        return str(value)
     return near if Fraction(repr(near)) == value else str(value)

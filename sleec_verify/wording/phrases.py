@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Protocol
 
+from sleec_runtime.language.common.formula_printer import print_number
 from sleec_verify.wording.sentence import Sentence, joined, plural, sentence
 
 if TYPE_CHECKING:
@@ -58,15 +59,10 @@ def in_domains(domains: Sequence[str]) -> str:
 
 
 def value_text(value: Value) -> str:
-    """A value as the language writes it. A fraction without a finite decimal is written as ``1/3``."""
+    """A value as the language writes it. A number without a finite decimal is written as ``1/3``."""
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, (int, str)):
-        return str(value)
-    decimal = repr(float(value))
-    from fractions import Fraction
-
-    return decimal if "e" not in decimal and Fraction(decimal) == value else str(value)
+    return value if isinstance(value, str) else print_number(value)
 
 
 def quoted(name: str) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from itertools import groupby
 from typing import NamedTuple
 
-from sleec_runtime.model import exact
+from sleec_runtime.model import Rational, exact
 from sleec_verify.report.mission_plot import grouping
 from sleec_verify.report.mission_plot.grouping import Group
 from sleec_verify.report.mission_plot.time_scale import TimeScale
@@ -107,7 +107,7 @@ def _boxes(place: Place, spans: Iterable[tuple[Change, float, float]]) -> None:
 
 def _curve(place: Place, spans: Sequence[tuple[Change, float, float]]) -> None:
     numbers = [number for change, _, _ in spans if (number := exact(change.value)) is not None]
-    least, most = float(min(numbers)), float(max(numbers))
+    least, most = _float(min(numbers)), _float(max(numbers))
     low, high = place.top + ROW - 4, place.top + 4
 
     def y(number: float) -> float:
@@ -118,7 +118,7 @@ def _curve(place: Place, spans: Sequence[tuple[Change, float, float]]) -> None:
     for _, group in groupby(spans, key=lambda span: (int(span[1]), span[0].value is None)):
         in_pixel = list(group)
         left, right = in_pixel[0][1], in_pixel[-1][2]
-        heights = [y(float(number)) for change, _, _ in in_pixel if (number := exact(change.value)) is not None]
+        heights = [y(_float(number)) for change, _, _ in in_pixel if (number := exact(change.value)) is not None]
         if heights:
             # All values of one column of pixels: from the first one to the extremes, and on with the last one.
             points += [(left, at) for at in dict.fromkeys([heights[0], min(heights), max(heights), heights[-1]])]
@@ -133,6 +133,11 @@ def _curve(place: Place, spans: Sequence[tuple[Change, float, float]]) -> None:
     x = place.scale.left + place.scale.width + 4
     place.drawing.text(x, high + 5, f"{most:g}", "small")
     place.drawing.text(x, low + 2, f"{least:g}", "small")
+
+
+def _float(number: Rational) -> float:
+    """The nearest float of at most 1e300 and at least -1e300: a measure may have a value that no float has."""
+    return float(max(-(10**300), min(number, 10**300)))
 
 
 class WindowRow:

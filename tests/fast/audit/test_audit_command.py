@@ -17,6 +17,7 @@ import pytest
 from sleec_runtime.audit.observation import read_line
 from sleec_verify.audit import mission
 from sleec_verify.audit.readers import json_lines
+from sleec_verify.report import FORMATS
 from tests.support.cli import Cli
 from tests.support.formats import VALIDATOR
 from tests.support.schemas import SCHEMAS
@@ -112,6 +113,31 @@ def test_findings_have_the_formats_of_check(cli: Cli) -> None:
     assert places == {"SLEEC701": ("rules.sleec", 1), "SLEEC708": ("m.jsonl", 3)}
     (failure,) = ElementTree.fromstring(cli(*COMMAND, "--format", "junit", files=given).out).iter("failure")
     assert "`OpenCurtains` has not been executed" in failure.attrib["message"]
+
+
+HUGE = 10**400
+"""A float cannot have this value."""
+
+
+@pytest.mark.parametrize("form", FORMATS)
+def test_numbers_of_any_size(form: str, cli: Cli, tmp_path: Path) -> None:
+    rules = """\
+MEASURE Patience: integer
+RULE a WHEN A THEN X WITHIN Patience days OTHERWISE Y
+RULE b WHEN A THEN NOT Z WITHIN Patience TO Patience days
+"""
+    log = "".join(
+        f'{{"time": {time}, "conditions": {{"Patience": {value}}}}}\n{{"time": {time}, "event": "A"}}\n'
+        f'{{"time": {time + 1}, "executed": "X"}}\n{{"time": {time + 2}, "event": "A"}}\n'
+        for time, value in enumerate((HUGE, -HUGE, "1e900", 5, "5e-900", HUGE), 1)
+    )
+    log += f'{{"time": {HUGE}, "event": "A"}}\n'
+    plot = tmp_path / "plot.svg"
+    given = {"rules.sleec": rules, "m.jsonl": log}
+    ran = cli(*COMMAND, "--format", form, "--plot", str(plot), "--late-start", files=given)
+    assert ran.code in (1, 3)
+    assert "internal error" not in ran.out + ran.err
+    ElementTree.parse(plot)
 
 
 def test_without_a_mapping_the_topics_of_the_log_are_named(cli: Cli) -> None:
