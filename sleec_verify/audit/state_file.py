@@ -30,7 +30,7 @@ class StateFile:
 
     def __init__(self, path: str, settings: Settings) -> None:
         self.path = path
-        self._settings = hashlib.sha256(repr(settings).encode("utf-8", "surrogatepass")).hexdigest()
+        self._settings = _digest(repr(settings))
         self._logs: dict[str, Any] = {}
         self._saved = time.monotonic()
         self._interrupted = False
@@ -49,6 +49,8 @@ class StateFile:
                 f"{path} is the state of an audit with another mapping or other options",
                 "use the same mapping and options, or name another file",
             )
+        if state.get("sha256") != _digest(json.dumps(state["logs"])):
+            raise SnapshotRefused(f"{path} is damaged", "delete it, and audit the logs from their start")
         self._logs = state["logs"]
 
     def resume(self, mission: Mission) -> None:
@@ -60,7 +62,8 @@ class StateFile:
         """Saves the state of a mission. Raises UnreadableFile if the file cannot be written."""
         self._logs[mission.path] = mission.state()
         self._saved = time.monotonic()
-        state = {"format": FORMAT, "settings": self._settings, "logs": self._logs}
+        digest = _digest(json.dumps(self._logs))
+        state = {"format": FORMAT, "settings": self._settings, "sha256": digest, "logs": self._logs}
         write_whole(self.path, json.dumps(state).encode())
 
     def pause(self, mission: Mission) -> None:
@@ -84,3 +87,7 @@ class StateFile:
 
     def _interrupt(self, number: int, frame: FrameType | None) -> None:
         self._interrupted = True
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()

@@ -15,11 +15,15 @@ import jsonschema
 import pytest
 
 from sleec_runtime.audit.observation import read_line
+from sleec_runtime.errors import SnapshotRefused
 from sleec_verify.audit import mission
 from sleec_verify.audit.readers import json_lines
+from sleec_verify.audit.settings import Settings
+from sleec_verify.audit.state_file import StateFile
 from sleec_verify.report import FORMATS
 from tests.support.cli import Cli
 from tests.support.formats import VALIDATOR
+from tests.support.hostile_json import HOSTILE, places, replaced
 from tests.support.schemas import SCHEMAS
 
 RULES = """\
@@ -202,6 +206,19 @@ def test_another_state_is_refused(state: str | None, options: tuple[str, ...], p
         ran = cli(*COMMAND, "--state", "state.json", files=files(START, **{"state.json": state}))
     assert ran.code == 2
     assert problem in ran.err
+
+
+def test_a_damaged_state_is_refused(cli: Cli, tmp_path: Path) -> None:
+    report(cli, START + REQUEST + OPEN + FALL, "--state", "state.json")
+    saved = json.loads((tmp_path / "state.json").read_text(encoding="utf-8"))
+    for place in places(saved["logs"]):
+        for new in HOSTILE:
+            text = replaced(saved, ("logs", *place), new)
+            if text == json.dumps(saved):
+                continue
+            (tmp_path / "state.json").write_text(text, encoding="utf-8")
+            with pytest.raises(SnapshotRefused):
+                StateFile("state.json", Settings())
 
 
 def test_a_log_that_changed_is_refused(cli: Cli) -> None:

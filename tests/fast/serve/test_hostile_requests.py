@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
 
 from sleec_verify.serve.application import ACTS, respond
 from sleec_verify.serve.session import Session
+from tests.support.hostile_json import HOSTILE, places, replaced
 from tests.support.pages import Page, page_on
 
 TEXT = """MEASURE Age: number
@@ -46,33 +46,6 @@ REFUSED: list[tuple[str, int, dict[str, Any]]] = [
     ("save", 409, {"text": TEXT, "based_on": "0"}),
     ("cases/add", 400, {**SITUATION, "text": TEXT, "name": "one", "obligations": ["Open"], "domain": "home"}),
 ]
-DEEP = "[" * 300 + "]" * 300
-HOSTILE = [
-    *("null", "0", "-1", "2.5", "1e999", "1e-5000", "9" * 4_000, "true"),
-    *('""', '"\\u0000"', '"\\u202e\\u001b[31m"', '"WHEN"', f'"{"x" * 20_000}"', '"WHEN A AND ' + "(" * 999 + '"'),
-    *("[]", "[null]", '["Bell,Bell"]', DEEP, "{}", '{"": 1}', '{"Age": {}}', '{"Asleep=true,Age": 1}'),
-    *('{"Age": "1/0"}', '{"Age": "3,Asleep=true"}', '{" Age ": 1}', '{"Risk": 3}', '{"Asleep": "yes"}', '"\\ud800"'),
-]
-
-
-def places(value: object, above: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
-    """The places of a JSON value, each as the keys that lead to it."""
-    yield above
-    keys = value.keys() if isinstance(value, dict) else range(len(value)) if isinstance(value, list) else ()
-    for key in keys:
-        yield from places(value[key], (*above, key))  # type: ignore[index]
-
-
-def replaced(value: Any, place: tuple[Any, ...], new: str) -> str:
-    """The JSON of a value with other JSON at a place."""
-    value = json.loads(json.dumps(value))
-    inner = value
-    for key in place[:-1]:
-        inner = inner[key]
-    if not place:
-        return new
-    inner[place[-1]] = "@"
-    return json.dumps(value).replace('"@"', new)
 
 
 @pytest.fixture(scope="module")

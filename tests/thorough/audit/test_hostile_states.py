@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
-from copy import deepcopy
-from typing import Any
 
 from sleec_runtime.audit.auditor import Auditor
 from sleec_runtime.audit.observation import Entered, Executed, Observation, Occurred, Reported
 from sleec_runtime.audit.state import restore, save
 from sleec_runtime.errors import SnapshotRefused
 from sleec_runtime.language import parse
+from tests.support.hostile_json import HOSTILE, places, replaced
 
 RULES = parse("""
 MEASURE Age: integer
@@ -44,27 +42,6 @@ AFTERWARDS: tuple[Observation, ...] = (
     Occurred(9, "Ring"),
     Executed(9, "Call"),
 )
-HOSTILE: tuple[Any, ...] = (
-    None, True, False, 0, 1, -1, 10**400, 1.5, 1e308, "", "x", "Ring", "home", "lox", "1/3", "1/0", "\ud800",
-    [], ["Ring"], [[]], [[1, 2]], {}, {"Dark": 1}, {"x": 1},
-)  # fmt: skip
-
-
-def places(state: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
-    """The paths to all values of the state."""
-    if path:
-        yield path
-    for key, value in state.items() if isinstance(state, dict) else enumerate(state) if isinstance(state, list) else ():
-        yield from places(value, (*path, key))
-
-
-def changed(state: Any, path: tuple[Any, ...], value: Any) -> Any:
-    state = deepcopy(state)
-    place = state
-    for key in path[:-1]:
-        place = place[key]
-    place[path[-1]] = value
-    return state
 
 
 def finish(auditor: Auditor) -> None:
@@ -79,11 +56,10 @@ def test_every_place_of_a_state() -> None:
     for observation in MISSION:
         auditor.observe(observation)
         state = json.loads(json.dumps(save(auditor)))
-        for path in places(state):
-            for value in HOSTILE:
-                broken = changed(state, path, value)
+        for place in places(state):
+            for new in HOSTILE:
                 try:
-                    restored = restore(RULES, broken)
+                    restored = restore(RULES, json.loads(replaced(state, place, new)))
                 except SnapshotRefused:
                     refused += 1
                     continue
