@@ -6,11 +6,16 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
+from sleec_runtime.errors import WrongType
+
 STRING = "std_msgs/msg/String"
 EMPTY = "std_msgs/msg/Empty"
 
 Fields = Mapping[str, object]
 """The fields of a message: plain values (str, bool, int, float, list, mapping)."""
+
+DEEPEST = 2**31 - 1
+"""The highest `depth` of a topic."""
 
 Receive = Callable[[Fields], object]
 """Gets the fields of each message of a topic."""
@@ -19,6 +24,8 @@ Receive = Callable[[Fields], object]
 @dataclass(frozen=True)
 class Topic:
     """A topic with its quality of service. It keeps the last `depth` messages.
+
+    Raises WrongType for a `name` that is not printable text, and for a wrong `type` or `depth`.
 
     `type` is the ROS name of the message type. A subscriber that joins late gets the last `depth` messages of a
     `latched` topic (transient-local durability). Delivery is reliable. A subscriber that is not `reliable` also
@@ -30,6 +37,19 @@ class Topic:
     latched: bool = False
     depth: int = 10
     reliable: bool = True
+
+    def __post_init__(self) -> None:
+        if not is_printable(self.name):
+            raise WrongType("name", self.name, "the name of a topic, a printable text")
+        if not is_printable(self.type):
+            raise WrongType("type", self.type, "the name of a message type", 'as in "std_msgs/msg/String"')
+        if type(self.depth) is not int or not 0 < self.depth <= DEEPEST:
+            raise WrongType("depth", self.depth, f"a whole number from 1 to {DEEPEST:,}")
+
+
+def is_printable(name: object) -> bool:
+    """Whether a name is printable text."""
+    return isinstance(name, str) and name.isprintable()
 
 
 class Publisher(Protocol):

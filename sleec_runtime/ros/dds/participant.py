@@ -27,9 +27,13 @@ from sleec_runtime.ros.dds.idl_types import serialized_type
 from sleec_runtime.ros.dds.message_types import Message
 from sleec_runtime.ros.transport import Topic
 from sleec_runtime.ros.transport_errors import TransportUnavailable
+from sleec_runtime.support.messages import represent
 
 LONGEST_BLOCK = 1
 """Seconds after which `write` gives up, if a receiver does not keep up."""
+
+LONGEST_WAIT = 86_400.0
+"""Seconds after which `wait` returns at the latest, if a time is given. DDS counts nanoseconds, in 64 bits."""
 
 _FOREVER: int = duration(infinite=True)
 
@@ -78,8 +82,8 @@ class Participant:
 
     def wait(self, seconds: float | None = None) -> set[Reader]:
         """The readers with messages, as soon as there are any, or a reader has another status, or after `wake`, or
-        after `seconds`."""
-        return self._with_messages(_FOREVER if seconds is None else duration(seconds=seconds))
+        after `seconds`, or after `LONGEST_WAIT`."""
+        return self._with_messages(_FOREVER if seconds is None else duration(seconds=min(seconds, LONGEST_WAIT)))
 
     def ready(self) -> set[Reader]:
         """The readers that have messages now."""
@@ -95,13 +99,15 @@ class Participant:
 
     def _topic(self, topic: Topic, message: Message) -> tuple[Any, Any]:
         samples = serialized_type(message)
+        hint = "start the name with `/`, and use one type for a topic"
+        if not topic.name.startswith("/"):
+            raise TransportUnavailable(f"topic {represent(topic.name)} cannot be created", hint)
         try:
             # As ROS 2 names topics in DDS: `rt/conditions`.
             return samples, DdsTopic(self._participant, f"rt{topic.name}", samples)
         except DDSException as error:
             raise TransportUnavailable(
-                f"topic {topic.name!r} of type {topic.type!r} cannot be created: {error.msg}",
-                "start the name with `/`, and use one type for a topic",
+                f"topic {represent(topic.name)} of type {topic.type!r} cannot be created: {error.msg}", hint
             ) from error
 
 

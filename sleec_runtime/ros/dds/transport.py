@@ -14,9 +14,10 @@ from typing import TYPE_CHECKING
 
 from sleec_runtime.concurrency.fork import renew_after_fork
 from sleec_runtime.errors import WrongType
-from sleec_runtime.model import exact
+from sleec_runtime.model import LONGEST, exact
 from sleec_runtime.ros.dds.cdr import decode, encode
 from sleec_runtime.ros.dds.environment import (
+    HIGHEST_DOMAIN,
     distribution_of_environment,
     domain_of_environment,
     refuse_unsecured_start,
@@ -55,7 +56,7 @@ class DdsTransport:
     those of one computer do.
 
     Raises TransportUnavailable without the extra `dds`, if DDS cannot start, or if the environment enforces SROS 2; and
-    WrongType for a wrong `settle`.
+    WrongType for a wrong `domain`, `limit` or `settle`.
     """
 
     def __init__(
@@ -67,8 +68,12 @@ class DdsTransport:
         settle: float = 0,
     ) -> None:
         held = exact(settle)
-        if held is None or held < 0:
-            raise WrongType("settle", settle, "a number of seconds from 0 on")
+        if held is None or not 0 <= held <= LONGEST:
+            raise WrongType("settle", settle, f"a number of seconds from 0 to {LONGEST:,}")
+        if type(limit) is not int or limit < 1:
+            raise WrongType("limit", limit, "a number of bytes from 1 on")
+        if domain is not None and (type(domain) is not int or not 0 <= domain <= HIGHEST_DOMAIN):
+            raise WrongType("domain", domain, f"a whole number from 0 to {HIGHEST_DOMAIN}")
         try:
             from sleec_runtime.ros.dds.participant import Participant
         except ImportError as error:
@@ -78,7 +83,7 @@ class DdsTransport:
         refuse_unsecured_start()
         self._types = TypeStore(distribution_of_environment(), definitions or {})
         self._limit = limit
-        self._settle = settle
+        self._settle = float(held)
         self._lock = threading.Lock()
         self._publishers: list[DdsPublisher] = []
         self._subscriptions: tuple[_Subscription, ...] = ()
@@ -216,7 +221,7 @@ class _Subscription:
         if fields is not None:
             try:
                 self.receive(fields)
-            except Exception:  # noqa: BLE001 - the thread must continue
+            except BaseException:  # noqa: BLE001 - the thread must continue
                 _LOG.exception("a subscriber of %s failed", self.topic.name)
 
     def report_incompatible_writers(self) -> None:

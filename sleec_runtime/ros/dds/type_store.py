@@ -8,6 +8,9 @@ from typing import Any
 from sleec_runtime.ros.dds.message_types import PRIMITIVES, STANDARD, FieldType, Items, Message, String
 from sleec_runtime.ros.transport_errors import InvalidDefinition, TransportUnavailable, UnknownMessageType
 
+LONGEST_ARRAY = 1 << 20
+"""The longest array of a message type. A message with a longer one exceeds any limit on messages."""
+
 
 class TypeStore:
     """The message types of a ROS distribution, and further ones.
@@ -30,7 +33,10 @@ class TypeStore:
             if name not in definitions:
                 raise UnknownMessageType(name, definitions, self._hint(name, definitions))
             _, fields = definitions[name]
-            known = Message(name, tuple((field, self._field_type(kind)) for field, kind in fields))
+            try:
+                known = Message(name, tuple((field, self._field_type(kind)) for field, kind in fields))
+            except RecursionError:
+                raise InvalidDefinition(f"the message type {name!r} contains itself") from None
             self._messages[name] = known
         return known
 
@@ -42,6 +48,8 @@ class TypeStore:
             return self.message(value)
         if node != Nodetype.BASE:
             of, length = value
+            if length > LONGEST_ARRAY:
+                raise InvalidDefinition(f"an array of {length:,} values is too long", f"use at most {LONGEST_ARRAY:,}")
             return Items(self._field_type(of), length, fixed=node == Nodetype.ARRAY)
         name, bound = value
         return String(bound) if name == "string" else PRIMITIVES[name]
