@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from math import isfinite
 from typing import Any
 
+from sleec_runtime.model import DIGITS, exact
 from sleec_runtime.ros.transport_errors import MalformedMessage
 from sleec_runtime.support.messages import represent
 
@@ -20,8 +21,7 @@ def read_object(text: object, max_size: int) -> dict[str, Any]:
 
     if not isinstance(text, str):
         raise MalformedMessage(f"the message holds {represent(text)}, not a text", "send a JSON object in `data`")
-    if len(text) > max_size:
-        raise MalformedMessage(f"the message has {len(text):,} characters, and at most {max_size:,} are accepted")
+    _refuse_longer(text, max_size)
     try:
         value = json.loads(
             text, object_pairs_hook=_object, parse_constant=_constant, parse_int=_integer, parse_float=_float
@@ -45,14 +45,23 @@ def read_object(text: object, max_size: int) -> dict[str, Any]:
     return value
 
 
-def write_object(fields: Mapping[str, object]) -> str:
-    """The fields as a JSON object. Raises MalformedMessage for values that are not plain data."""
+def write_object(fields: Mapping[str, object], max_size: int) -> str:
+    """The fields as a JSON object. Raises MalformedMessage for values that are not plain data, for lone surrogates, and
+    for more than `max_size` characters."""
     import json
 
     try:
-        return json.dumps(fields, ensure_ascii=False, allow_nan=False)
+        text = json.dumps(fields, ensure_ascii=False, allow_nan=False)
+        text.encode()
     except (TypeError, ValueError, RecursionError) as error:
         raise MalformedMessage(f"the message cannot be written as JSON: {error}", "give it plain data") from None
+    _refuse_longer(text, max_size)
+    return text
+
+
+def _refuse_longer(text: str, max_size: int) -> None:
+    if len(text) > max_size:
+        raise MalformedMessage(f"the message has {len(text):,} characters, and at most {max_size:,} are accepted")
 
 
 def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -69,9 +78,12 @@ def _constant(text: str) -> object:
 
 
 def _integer(text: str) -> int:
-    if len(text) > 1_000:
-        raise MalformedMessage(f"the message holds a number of {len(text):,} digits, and at most 1,000 are accepted")
-    return int(text)
+    # As for other numbers, so that a receiver accepts what a sender has. A sign is not a digit.
+    digits = len(text.lstrip("-"))
+    number = exact(int(text)) if digits <= DIGITS + 1 else None
+    if not isinstance(number, int):
+        raise MalformedMessage(f"the message holds a number of {digits:,} digits, and at most {DIGITS:,} are accepted")
+    return number
 
 
 def _float(text: str) -> float:

@@ -56,13 +56,13 @@ class Message:
         return cls.from_json(received.get("data") if isinstance(received, Mapping) else received)
 
     def to_json(self) -> str:
-        """Without optional fields that are None."""
+        """Without optional fields that are None. Raises MalformedMessage for what receivers would reject."""
         written: dict[str, object] = {"v": VERSION}
         for one in fields(self):  # type: ignore[arg-type]
             value = getattr(self, one.name)
             if value is not None or _is_required(one):
                 written[one.name] = _plain(value)
-        return write_object(written)
+        return write_object(written, self.max_size)
 
     def to_fields(self) -> Fields:
         """The fields of a String."""

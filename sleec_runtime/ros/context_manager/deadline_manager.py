@@ -16,10 +16,14 @@ from sleec_runtime.facade.sleec import Sleec
 from sleec_runtime.model import literals
 from sleec_runtime.ros.context_manager.layer_updater import LayerUpdater
 from sleec_runtime.ros.identity import snapshot_of
+from sleec_runtime.ros.json_object import write_object
 from sleec_runtime.ros.managed_triggers import managed_triggers
 from sleec_runtime.ros.messages import Completed, Executed, MissionEvent, Start
 from sleec_runtime.ros.node import Node
 from sleec_runtime.ros.recent_ids import RecentIds
+
+MOST_ARGUMENTS = Start.max_size - 10_000
+"""The most characters of the arguments of a trigger. The other fields of a `Start` need less than the rest."""
 
 
 class DeadlineManager:
@@ -54,9 +58,11 @@ class DeadlineManager:
         self._node.listen(Completed, self._complete)
 
     def occur(self, trigger: str, arguments: Mapping[str, Any]) -> None:
-        """A trigger of a rule with times occurs. Raises as `Sleec.trigger`, and reports this on /executed."""
+        """A trigger of a rule with times occurs. Raises as `Sleec.trigger`, and MalformedMessage for arguments that no
+        message can carry to the tasks. Reports this on /executed."""
         arrived = time.time()
         try:
+            write_object({"arguments": arguments}, MOST_ARGUMENTS)
             self._sleec.trigger(trigger, dict(arguments))
         except SleecError as error:
             failed = f"{type(error).__name__}: {error}"
@@ -93,6 +99,8 @@ class DeadlineManager:
 
     def _start(self, name: str, arguments: Mapping[str, Any]) -> None:
         """The code of an obligation."""
+        if self._node.closed:
+            return
         updater = self._updater
         start = Start(
             manager=updater.manager,

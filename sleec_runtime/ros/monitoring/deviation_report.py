@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from sleec_runtime.audit.deviation import Deviation
 from sleec_runtime.audit.wording import message, reasons
-from sleec_runtime.model import Rational, names_of
+from sleec_runtime.model import LONGEST, Rational, names_of
 from sleec_runtime.ros.message import Conditions, Message
 from sleec_runtime.ros.transport import Topic
 
@@ -46,16 +46,16 @@ def report_of(deviation: Deviation, monitor: str, number: int, found: Rational) 
         monitor=monitor,
         number=number,
         found=float(found),
-        time=float(deviation.time),
+        time=_seconds(deviation.time),
         kind=deviation.kind,
         text=message(deviation),
         reasons=tuple(reasons(deviation)),
         rule=deviation.rule,
         clause=deviation.clause,
         obligation=None if deviation.obligation is None else deviation.obligation.name,
-        since=None if triggered is None else float(triggered.time),
-        first=_seconds(deviation.first),
-        last=_seconds(deviation.last),
+        since=None if triggered is None else _seconds(triggered.time),
+        first=None if deviation.first is None else _seconds(deviation.first),
+        last=None if deviation.last is None else _seconds(deviation.last),
         conditions=_conditions(deviation),
         missing=deviation.missing,
         name=deviation.name or None,
@@ -71,5 +71,6 @@ def _conditions(deviation: Deviation) -> Conditions:
     return {name: known[name] for name in sorted(names) if name in known}
 
 
-def _seconds(time: Rational | None) -> float | None:
-    return None if time is None else float(time)
+def _seconds(time: Rational) -> float:
+    """A time that receivers accept. A window whose length is a measure may end later than any clock."""
+    return float(max(-LONGEST, min(time, LONGEST)))
