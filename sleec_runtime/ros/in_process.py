@@ -120,7 +120,7 @@ class InProcessTransport:
                 continue
             try:
                 call()
-            except Exception:  # noqa: BLE001 - logged
+            except BaseException:  # noqa: BLE001 - logged
                 _LOG.exception("a subscriber failed")
 
 

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import TypeVar
 
 from sleec_runtime.errors import SleecError, WrongType
-from sleec_runtime.model import Rational, exact
+from sleec_runtime.model import LONGEST, Rational, exact
 from sleec_runtime.ros.message import Message
-from sleec_runtime.ros.transport import Fields, Receive, Topic, Transport
-from sleec_runtime.timed.clock import Cancel, Clock, Time
+from sleec_runtime.ros.transport import Fields, Receive, Topic, Transport, is_printable
+from sleec_runtime.timed.clock import Cancel, Clock, Time, checked_time
+from sleec_runtime.timed.failures import raise_interrupt
 from sleec_runtime.timed.monotonic_clock import MonotonicClock
 
 M = TypeVar("M", bound=Message)
@@ -21,23 +23,31 @@ OnProblem = Callable[[SleecError], object]
 _LOG = logging.getLogger("sleec_runtime.ros")
 
 
-def positive(seconds: float, name: str) -> float:
-    """Raises WrongType for a number that is not above 0."""
-    number = exact(seconds)
-    if number is None or number <= 0:
-        raise WrongType(name, seconds, "a number of seconds above 0")
-    return seconds
+SHORTEST = 0.001
+"""The shortest time that a node measures, in seconds. Calls at shorter intervals would leave no time for messages."""
+
+
+def seconds_of(value: float, name: str) -> float:
+    """A length of time as a float, with which any clock can calculate. Raises WrongType for one that is not from
+    `SHORTEST` to `LONGEST`."""
+    number = exact(value)
+    if number is None or not 0 < number <= LONGEST or float(number) < SHORTEST:
+        raise WrongType(name, value, f"a number of seconds from {SHORTEST} to {LONGEST:,}")
+    return float(number)
 
 
 class Node:
     """A node with a name. It logs each problem, and gives it to `on_problem`.
 
-    `clock` measures heartbeats; the default is the clock of the computer. The transport belongs to the caller.
+    `clock` measures heartbeats; the default is the clock of the computer. The transport belongs to the caller. Raises
+    WrongType for a `name` that is not printable text.
     """
 
     def __init__(
         self, name: str, transport: Transport, clock: Clock | None = None, on_problem: OnProblem | None = None
     ) -> None:
+        if not is_printable(name):
+            raise WrongType("name", name, "the name of the node, a printable text")
         self.name = name
         self.transport = transport
         self.closed = False
@@ -46,9 +56,18 @@ class Node:
         self._on_problem = on_problem
         self._cancels: dict[Callable[[], object], Cancel] = {}
 
+    @contextmanager
+    def starting(self) -> Iterator[None]:
+        """Closes the node if the block raises, so that no half of a node takes messages."""
+        try:
+            yield
+        except BaseException:
+            self.close()
+            raise
+
     def exact_time(self) -> Rational:
-        """The time of the clock, as an exact number."""
-        time = exact(self.clock.now())
+        """The time of the clock, as an exact number. Raises WrongType for a time out of bounds."""
+        time = exact(checked_time(self.clock.now()))
         assert time is not None
         return time
 
@@ -82,9 +101,9 @@ class Node:
         return send
 
     def every(self, seconds: float, call: Callable[[], object]) -> None:
-        """Calls `call` each `seconds` until the node is closed. Raises WrongType for a number that is not above 0."""
-        positive(seconds, "the time between two calls")
-        self.repeat(lambda: self.clock.now() + seconds, call)
+        """Calls `call` each `seconds` until the node is closed. Raises as `seconds_of`."""
+        period = seconds_of(seconds, "the time between two calls")
+        self.repeat(lambda: self.clock.now() + period, call)
 
     def repeat(self, following: Callable[[], Time], call: Callable[[], object]) -> None:
         """Calls `call` at the time that `following` returns, and then again, until the node is closed."""
@@ -102,11 +121,15 @@ class Node:
         self._cancels[call] = self.clock.wake(following(), ring)
 
     def report(self, problem: SleecError, topic: str | None = None) -> None:
-        """Logs a problem, and calls `on_problem`."""
+        """Logs a problem, and calls `on_problem`. The node continues if that fails."""
         place = self.name if topic is None else f"{self.name}, {topic}"
         _LOG.warning("%s: %s", place, problem)
         if self._on_problem is not None:
-            self._on_problem(problem)
+            try:
+                self._on_problem(problem)
+            except BaseException as error:  # noqa: BLE001 - logged
+                _LOG.exception("%s: on_problem failed", self.name)
+                raise_interrupt(error)
 
     def close(self) -> None:
         """Ends the timers. Later messages have no effect."""

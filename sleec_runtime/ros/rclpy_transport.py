@@ -57,7 +57,7 @@ class RclpyTransport:
             if not self._closed:
                 try:
                     receive(message_to_ordereddict(message))
-                except Exception:  # noqa: BLE001 - the executor must continue
+                except BaseException:  # noqa: BLE001 - the executor must continue
                     _LOG.exception("a subscriber of %s failed", topic.name)
 
         self._node.create_subscription(_message_class(topic.type), topic.name, deliver, _qos(topic))

@@ -16,7 +16,7 @@ from sleec_runtime.ros.context_manager.hedge_clauses_manager import HedgeClauses
 from sleec_runtime.ros.context_manager.layer_updater import LayerUpdater
 from sleec_runtime.ros.identity import Identifier, Identity, snapshot_of
 from sleec_runtime.ros.messages import Heartbeat, LayersUpdate
-from sleec_runtime.ros.node import Node, OnProblem
+from sleec_runtime.ros.node import Node, OnProblem, seconds_of
 from sleec_runtime.ros.problems import SecondManager
 from sleec_runtime.ros.recent_ids import RecentIds
 from sleec_runtime.ros.transport import EMPTY, Topic, Transport
@@ -51,27 +51,29 @@ class ContextManagerNode:
             raise SleecError(
                 "nodes do not trigger rules by responses", "load the rules with chains=False, and start such rules"
             )
+        heartbeat = seconds_of(heartbeat, "heartbeat")
         sleec.code.is_partial = True
         self.manager = uuid.uuid4().hex
         self._sleec = sleec
         self._node = node = Node(name, transport, sleec.clock, on_problem)
         self._file = None if checkpoint is None else CheckpointFile(checkpoint)
         self._others = RecentIds()
-        saved = None if self._file is None else self._file.read()
-        if saved is not None:
-            self._restore_context(saved)
-        self.hedge_clauses = HedgeClausesManager(sleec, lambda change: self.layer_updater.publish(change))
-        self.layer_updater = LayerUpdater(node, sleec, self.manager, self.hedge_clauses.active_layers)
-        self.deadlines = DeadlineManager(node, sleec, self.layer_updater, self._save)
-        if saved is not None:
-            self.deadlines.restore(saved.starts, saved.pending)
-        self.deadlines.listen()
-        DomainListener(node, self.hedge_clauses, self._save)
-        ConditionsUpdatesListener(node, self.hedge_clauses, self._save)
-        node.listen(Heartbeat, self._refuse_second)
-        self.layer_updater.publish_all()
-        self.layer_updater.heartbeat()
-        node.every(heartbeat, self._beat)
+        with node.starting():
+            saved = None if self._file is None else self._file.read()
+            if saved is not None:
+                self._restore_context(saved)
+            self.hedge_clauses = HedgeClausesManager(sleec, lambda change: self.layer_updater.publish(change))
+            self.layer_updater = LayerUpdater(node, sleec, self.manager, self.hedge_clauses.active_layers)
+            self.deadlines = DeadlineManager(node, sleec, self.layer_updater, self._save)
+            if saved is not None:
+                self.deadlines.restore(saved.starts, saved.pending)
+            self.deadlines.listen()
+            DomainListener(node, self.hedge_clauses, self._save)
+            ConditionsUpdatesListener(node, self.hedge_clauses, self._save)
+            node.listen(Heartbeat, self._refuse_second)
+            self.layer_updater.publish_all()
+            self.layer_updater.heartbeat()
+            node.every(heartbeat, self._beat)
 
     def subscribe(self, topic: str | Topic, trigger: str) -> None:
         """Takes each message on `topic` as an occurrence of `trigger`, of a rule with times. Tasks subscribe to other
@@ -104,7 +106,7 @@ class ContextManagerNode:
             ) from None
 
     def _save(self) -> None:
-        if self._file is not None:
+        if self._file is not None and not self._node.closed:
             try:
                 self._file.write(self._checkpoint)
             except SleecError as problem:

@@ -44,7 +44,9 @@ class LayerUpdater:
         node.listen(LayersRequest, self._requested)
 
     def publish(self, change: ContextChange) -> None:
-        """Publishes a change of context."""
+        """Publishes a change of context, until the node is closed."""
+        if self._node.closed:
+            return
         self.number += 1
         index = change.context.index
         often = max(OFTEN, (len(index.vocabulary) + len(index.place_of)) // NAMES)

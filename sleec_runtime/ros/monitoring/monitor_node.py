@@ -19,11 +19,12 @@ from sleec_runtime.ros.monitoring.deviation_report import DeviationReport, repor
 from sleec_runtime.ros.monitoring.live_topics import WATCHED, live_topics
 from sleec_runtime.ros.monitoring.robot_mapping import RobotMapping
 from sleec_runtime.ros.monitoring.wall_clock import WallClock
-from sleec_runtime.ros.node import Node, OnProblem
+from sleec_runtime.ros.node import Node, OnProblem, seconds_of
 from sleec_runtime.ros.problems import Unfit
 from sleec_runtime.ros.transport import Fields, Topic, Transport
 from sleec_runtime.support.messages import listed
 from sleec_runtime.timed.clock import Clock
+from sleec_runtime.timed.failures import raise_interrupt
 
 _LOG = logging.getLogger("sleec_runtime.ros")
 
@@ -44,7 +45,8 @@ class MonitorNode(Node):
     mapping does not fit is reported once for each entry of the mapping, and a value that does not fit once for each
     name. `problems` counts both. The values that they should contain are unknown.
 
-    Raises MappingError for a topic without a type, and as `transport.subscribe`.
+    Raises MappingError for a topic without a type, WrongType for a wrong `period` or `patience`, and as
+    `transport.subscribe`.
     """
 
     def __init__(
@@ -79,10 +81,12 @@ class MonitorNode(Node):
             auditor.begin_late(self.exact_time(), is_domain_known)
         topics = live_topics(WATCHED, mapping)
         self._silent = set(self._mapping.topics or self._mapping.node_topics)
-        for topic in topics:
-            transport.subscribe(topic, partial(self._watch, topic))
-        self.every(period, self._advance)
+        patience = seconds_of(patience, "patience")
         self._cancel_patience = self.clock.wake(self.clock.now() + patience, self._report_silence)
+        with self.starting():
+            for topic in topics:
+                transport.subscribe(topic, partial(self._watch, topic))
+            self.every(period, self._advance)
 
     def close(self) -> None:
         """Ends the monitor, and publishes the open obligations. The transport stays open."""
@@ -127,8 +131,9 @@ class MonitorNode(Node):
             if self._on_deviation is not None:
                 try:
                     self._on_deviation(deviation)
-                except Exception:  # noqa: BLE001 - the monitor continues
+                except BaseException as error:  # noqa: BLE001 - the monitor continues
                     _LOG.exception("on_deviation failed")
+                    raise_interrupt(error)
 
     def _count(self, misfit: Misfit) -> None:
         if self._is_first(misfit.source.where):

@@ -49,12 +49,9 @@ class RecorderNode(Node):
         """The number of messages in the log that this node has written."""
         self.lost: Counter[str] = Counter()
         """The number of lost messages, by problem."""
-        try:
+        with self.starting():
             for topic in topics:
                 transport.subscribe(topic, partial(self._record, topic))
-        except BaseException:
-            self.close()
-            raise
 
     def close(self) -> None:
         """Ends the recording. The transport stays open."""

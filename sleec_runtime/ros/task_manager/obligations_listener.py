@@ -13,6 +13,7 @@ from sleec_runtime.facade.sleec import Sleec
 from sleec_runtime.ros.messages import Completed, Executed, Start
 from sleec_runtime.ros.node import Node
 from sleec_runtime.ros.task_manager.layer_listener import LayerListener
+from sleec_runtime.timed.failures import raise_interrupt
 
 MOST = 10_000
 """The number of starts that a task remembers."""
@@ -36,7 +37,7 @@ class ObligationsListener:
     """
 
     def __init__(
-        self, node: Node, sleec: Sleec, layers: LayerListener, on_error: Callable[[str, Exception], str]
+        self, node: Node, sleec: Sleec, layers: LayerListener, on_error: Callable[[str, BaseException], str]
     ) -> None:
         self._node = node
         self._sleec = sleec
@@ -79,8 +80,9 @@ class ObligationsListener:
             return
         try:
             function(start.arguments)
-        except Exception as error:  # noqa: BLE001 - reported
+        except BaseException as error:  # noqa: BLE001 - reported
             self._report_end(run, failed=self._on_error(start.obligation, error))
+            raise_interrupt(error)
         else:
             if start.obligation not in code.takes_time and not run.is_completed:
                 self.complete(start.obligation)

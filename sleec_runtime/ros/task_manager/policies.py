@@ -52,13 +52,10 @@ class HeldTriggers:
                 return True
         return False
 
-    def take(self) -> Iterator[HeldTrigger]:
-        """Removes what waits, one after the other."""
-        while self._held:
-            with self._lock:
-                held = self._held.popleft() if self._held else None
-            if held is not None:
-                yield held
+    def take(self) -> HeldTrigger | None:
+        """Removes the first trigger that waits; None if there is none."""
+        with self._lock:
+            return self._held.popleft() if self._held else None
 
     def take_expired(self) -> Iterator[HeldTrigger]:
         """Removes what has waited too long, one after the other."""

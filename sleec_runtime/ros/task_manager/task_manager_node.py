@@ -14,7 +14,7 @@ from sleec_runtime.facade.sleec import Sleec
 from sleec_runtime.model import Rule
 from sleec_runtime.ros.identity import snapshot_of
 from sleec_runtime.ros.messages import Executed, MissionEvent
-from sleec_runtime.ros.node import Node, OnProblem, positive
+from sleec_runtime.ros.node import Node, OnProblem, seconds_of
 from sleec_runtime.ros.problems import OutOfStep
 from sleec_runtime.ros.recent_ids import RecentIds
 from sleec_runtime.ros.task_manager.default_clauses import run_defaults
@@ -24,6 +24,7 @@ from sleec_runtime.ros.task_manager.policies import MOST_HELD, HeldTriggers, Pol
 from sleec_runtime.ros.task_manager.rules_of_node import claim_rules
 from sleec_runtime.ros.transport import EMPTY, Fields, Topic, Transport
 from sleec_runtime.support.messages import represent
+from sleec_runtime.timed.failures import raise_interrupt
 
 _LOG = logging.getLogger("sleec_runtime.ros")
 
@@ -65,7 +66,8 @@ class TaskManagerNode:
         on_problem: OnProblem | None = None,
     ) -> None:
         self._policy = checked_policy(policy)
-        positive(timeout, "timeout")
+        timeout = seconds_of(timeout, "timeout")
+        longest_hold = seconds_of(longest_hold, "longest_hold")
         if type(self) is not TaskManagerNode:
             sleec.bind(self)
         self._rules = claim_rules(sleec, rules)
@@ -73,15 +75,16 @@ class TaskManagerNode:
         self._triggers = frozenset(by_label[label].trigger for label in self._rules)
         self._sleec = sleec
         self._node = Node(name, transport, sleec.clock, on_problem)
-        sleec.listen(self._anticipate)
-        self._held = HeldTriggers(self._node.clock, positive(longest_hold, "longest_hold"))
+        self._held = HeldTriggers(self._node.clock, longest_hold)
         self._mission_ids = RecentIds()
-        self._send = self._node.sender(Executed)
-        self.layer_listener = LayerListener(self._node, sleec, timeout, self._release)
-        self._occurrences = {trigger: self._occurrence(trigger) for trigger in self._triggers}
-        self._obligations = ObligationsListener(self._node, sleec, self.layer_listener, self._report_error)
-        self._node.listen(MissionEvent, self._receive)
-        self._node.every(timeout, self._expire)
+        with self._node.starting():
+            self._send = self._node.sender(Executed)
+            self.layer_listener = LayerListener(self._node, sleec, timeout, self._release)
+            self._occurrences = {trigger: self._occurrence(trigger) for trigger in self._triggers}
+            self._obligations = ObligationsListener(self._node, sleec, self.layer_listener, self._report_error)
+            self._node.listen(MissionEvent, self._receive)
+            self._node.every(timeout, self._expire)
+        sleec.listen(self._anticipate)
 
     def subscribe(self, topic: str | Topic, trigger: str) -> None:
         """Takes each message on `topic` as an occurrence of `trigger`. The code of its rules gets the fields.
@@ -128,8 +131,9 @@ class TaskManagerNode:
                 return
             try:
                 done = execute(trigger, fields)
-            except Exception as error:  # noqa: BLE001 - reported
+            except BaseException as error:  # noqa: BLE001 - reported
                 self._fail(trigger, arrived, error)
+                raise_interrupt(error)
             else:
                 self._report(done, trigger, arrived)
 
@@ -160,8 +164,9 @@ class TaskManagerNode:
         if self._policy == "default":
             try:
                 due = run_defaults(self._sleec, trigger, self._rules, fields)
-            except Exception as error:  # noqa: BLE001 - reported
+            except BaseException as error:  # noqa: BLE001 - reported
                 self._fail(trigger, arrived, error, policy="default")
+                raise_interrupt(error)
                 return
             clauses = tuple((decision.rule.label, decision.clause) for decision in due.decisions)
             self._send_without_context(trigger, arrived, policy="default", obligations=due.obligations, clauses=clauses)
@@ -171,7 +176,8 @@ class TaskManagerNode:
             self._refuse(trigger, arrived, f"{MOST_HELD} triggers are held already; {reason}")
 
     def _release(self) -> None:
-        for held in self._held.take():
+        """Decides what is held, until the code of a rule takes the node out of step again."""
+        while self.layer_listener.in_step and (held := self._held.take()) is not None:
             if held.until < self._node.clock.now():
                 self._refuse(held.trigger, held.arrived, "it was held for too long")
             else:
@@ -185,10 +191,10 @@ class TaskManagerNode:
         self._node.report(OutOfStep(f"{trigger} is refused: {reason}"))
         self._send_without_context(trigger, arrived, policy=self._policy, refused=reason)
 
-    def _fail(self, trigger: str, arrived: float, error: Exception, **fields: str) -> None:
+    def _fail(self, trigger: str, arrived: float, error: BaseException, **fields: str) -> None:
         self._send_without_context(trigger, arrived, failed=self._report_error(trigger, error), **fields)
 
-    def _report_error(self, what: str, error: Exception) -> str:
+    def _report_error(self, what: str, error: BaseException) -> str:
         """Reports an error of the code of a task, and returns it as text."""
         text = f"{type(error).__name__}: {error}"
         if not isinstance(error, SleecError):
