@@ -15,7 +15,7 @@ INSTALL := $(BIN)/python -m pip --quiet --disable-pip-version-check --no-input i
 # Without build isolation, the tools that build contextpy3 from source are locked, too.
 INSTALL_LOCKED := $(INSTALL) --require-hashes -r
 
-.PHONY: help setup demo robot test fast lint types check-tests slow coverage site page browser fuzz long proofs theorems bench evaluation mutants dist sbom lock clean
+.PHONY: help setup demo robot test fast lint types check-tests slow coverage site page browser fuzz long proofs theorems bench evaluation check-evaluation mutants dist sbom lock clean
 
 help:
 	@echo 'make demo     check the shipped rulesets, and explain one situation'
@@ -33,6 +33,7 @@ help:
 	@echo 'make theorems write the theorems about the shipped rulesets, after a change to these'
 	@echo 'make bench    run the benchmarks'
 	@echo 'make evaluation  repeat the evaluation of the paper'
+	@echo 'make check-evaluation  test the evaluation, and run its short version'
 	@echo 'make mutants  run mutation tests of the core'
 	@echo 'make dist     build both distributions of the last commit in dist/'
 	@echo 'make sbom     build both distributions, each with an SBOM'
@@ -175,6 +176,10 @@ $(EVALUATION_LOCKED): requirements/evaluation.lock | $(INSTALLED)
 QUICK =
 evaluation: $(EVALUATION_LOCKED)
 	$(BIN)/python -m benchmarks.evaluation $(QUICK)
+
+# What `make test` skips, because it does not install scipy and matplotlib.
+check-evaluation: $(EVALUATION_LOCKED)
+	@$(BIN)/pytest tests/fast/benchmarks tests/thorough/benchmarks
 
 mutants: $(TOOLS_LOCKED)
 	HYPOTHESIS_PROFILE=mutants $(BIN)/mutmut run
