@@ -20,7 +20,7 @@ from sleec_runtime.errors import UnknownDomain, WrongType
 from sleec_runtime.evaluation.formula_truth import Situation
 from sleec_runtime.evaluation.hedge_chain import Decision, walk
 from sleec_runtime.evaluation.trace import Untimed
-from sleec_runtime.model import Rational, Rule, Ruleset, Value, exact, fit
+from sleec_runtime.model import LONGEST, Rational, Rule, Ruleset, Value, exact, fit
 
 TOLERANCE = 1
 """The default tolerance in seconds."""
@@ -48,8 +48,8 @@ class Auditor:
         chains: bool = True,
     ) -> None:
         seconds = exact(tolerance)
-        if seconds is None or seconds < 0:
-            raise WrongType("tolerance", tolerance, "a number of seconds, from 0 on")
+        if seconds is None or not 0 <= seconds <= LONGEST:
+            raise WrongType("tolerance", tolerance, f"a number of seconds, from 0 to {LONGEST:,}")
         if domain is not None and ruleset.domains and domain not in ruleset.domains:
             raise UnknownDomain(domain, ruleset.domains)
         self.ruleset = ruleset

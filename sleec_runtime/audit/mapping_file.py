@@ -26,7 +26,7 @@ from sleec_runtime.audit.message_field import FieldPath
 from sleec_runtime.audit.source import GOAL_STATES, Source, SourceKind
 from sleec_runtime.audit.vocabulary import Vocabulary
 from sleec_runtime.errors import MappingError
-from sleec_runtime.model import Rational, Ruleset, exact
+from sleec_runtime.model import LONGEST, Rational, Ruleset, exact
 from sleec_runtime.support.files import read_file
 from sleec_runtime.support.messages import listed, represent
 from sleec_runtime.support.suggestions import nearest
@@ -121,8 +121,9 @@ class _Reader:
             if key not in known:
                 raise self._error("", f"unknown key {represent(key)}", _near(key, known))
         tolerance = exact(table.get("tolerance", 0))
-        if tolerance is None or tolerance < 0:
-            raise self._error("tolerance", f"it is {represent(table['tolerance'])}, not a number of seconds from 0 on")
+        if tolerance is None or not 0 <= tolerance <= LONGEST:
+            problem = f"it is {represent(table['tolerance'])}, not a number of seconds from 0 to {LONGEST:,}"
+            raise self._error("tolerance", problem)
         topics = dict(self._topics(table.get("topics", {})))
         definitions = self._definitions(table.get("definitions", {}))
         sources = tuple(self._sources(table))
@@ -245,7 +246,14 @@ class _Reader:
             if one not in known:
                 what = "the ruleset has no domain" if kind == "domain" else f"the scale of `{name}` has no value"
                 raise self._error(where, f"{what} `{one}`", _near(one, known))
-        return {one: self._plain(where, values, one) for one in values}
+        plain = {one: self._plain(where, values, one) for one in values}
+        names: dict[tuple[bool, object], str] = {}
+        for one, value in plain.items():
+            # In Python, True equals 1.
+            other = names.setdefault((isinstance(value, bool), exact(value) or value), one)
+            if other != one:
+                raise self._error(where, f"`values` gives {represent(value)} two names: `{other}` and `{one}`")
+        return plain
 
     def _plain(self, where: str, entry: Mapping[str, Any], key: str) -> object:
         value = entry.get(key)

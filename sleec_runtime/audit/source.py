@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from sleec_runtime.audit.message_field import FieldPath
+from sleec_runtime.language.common.formula_printer import print_number
 from sleec_runtime.model import Rational, Value, exact
 from sleec_runtime.support.messages import represent
 
@@ -20,6 +21,10 @@ GOAL_STATES: Mapping[GoalState, frozenset[int]] = {
     "aborted": frozenset({6}),
 }
 """The states of a goal, and their numbers in action_msgs/msg/GoalStatus. A goal in any later state was accepted."""
+
+
+_SHORT = 40
+"""The most characters of a number that a message has in full."""
 
 
 class Unsuitable(Exception):
@@ -55,40 +60,65 @@ class Source:
     def value(self, raw: object) -> Value | None:
         """The value of a condition, measure or domain that a raw value means; None if it is unknown, as NaN is. Raises
         Unsuitable."""
+        if _is_missing(raw):
+            return None
         if self.values:
             for name, expected in self.values.items():
                 if _same(raw, expected):
                     return name
-            raise Unsuitable(f"`values` has no name for {represent(raw)}")
+            raise Unsuitable(f"`values` has no name for {_shown(raw)}")
         if isinstance(raw, str) and self.kind in ("measure", "domain"):
             return raw
+        if self.kind == "domain":
+            raise Unsuitable(f"{_shown(raw)} is not a text; name the domains with `values`")
         return self._number(raw)
 
     def holds(self, raw: object, before: bool | None) -> bool | None:
         """Whether a raw value makes the condition or event true; None if it is unknown, as NaN is. `before` is the last
         answer. Raises Unsuitable."""
+        if _is_missing(raw):
+            return None
         if self.equals is not None:
+            if _form(raw) != _form(self.equals):
+                raise Unsuitable(f"{_shown(raw)} is not {_form(self.equals)}, as in `equals`")
             return _same(raw, self.equals)
         if self.above is None and self.below is None:
-            if raw is None or isinstance(raw, bool):
+            if isinstance(raw, bool):
                 return raw
-            raise Unsuitable(f"{represent(raw)} is not true or false; compare it with `equals`, `above` or `below`")
+            raise Unsuitable(f"{_shown(raw)} is not true or false; compare it with `equals`, `above` or `below`")
         number = self._number(raw)
-        if number is None:
-            return None
         bound = self.until if before and self.until is not None else None
         if self.above is not None:
             return number > (self.above if bound is None else bound)
         assert self.below is not None
         return number < (self.below if bound is None else bound)
 
-    def _number(self, raw: object) -> Rational | None:
-        if raw is None or (isinstance(raw, float) and raw != raw):
-            return None
+    def _number(self, raw: object) -> Rational:
         number = exact(raw)
         if number is None:
             raise Unsuitable(f"{represent(raw)} is not a number")
         return number * self.scale + self.offset
+
+
+def _shown(raw: object) -> str:
+    """A raw value in a message. The readers of logs give exact numbers, whose `repr` is not what the log has."""
+    number = exact(raw)
+    text = None if number is None else print_number(number)
+    return represent(raw) if text is None or len(text) > _SHORT else text
+
+
+def _is_missing(raw: object) -> bool:
+    """Whether a raw value is null or NaN."""
+    return raw is None or (isinstance(raw, float) and raw != raw)
+
+
+def _form(value: object) -> str | None:
+    """What a value can be compared with; None for a list or a mapping."""
+    if isinstance(value, bool):
+        return "true or false"
+    if isinstance(value, str):
+        return "a text"
+    return "a number" if isinstance(value, float) or exact(value) is not None else None
 
 
 def _same(raw: object, expected: object) -> bool:

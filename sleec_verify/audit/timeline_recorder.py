@@ -39,11 +39,12 @@ class TimelineRecorder:
 
     def observe(self, observation: Observation) -> None:
         """Records what was observed. Call it before the auditor observes it."""
-        timeline, time = self._timeline, observation.time
+        timeline = self._timeline
         if not self._is_begun:
             self._is_begun = True
-            timeline.start = time
-        timeline.end = max(timeline.end, time)
+            timeline.start = observation.time
+        # An observation that is out of order counts at the time of the one before it.
+        time = timeline.end = max(timeline.end, observation.time)
         if isinstance(observation, Entered):
             name = observation.domain or ""
             if not timeline.domains or timeline.domains[-1].name != name:
@@ -61,7 +62,8 @@ class TimelineRecorder:
     def deviate(self, deviation: Deviation) -> None:
         """Records a deviation."""
         words = message(deviation).removeprefix(f"at {time_text(deviation.time)}, ")
-        mark = DeviationMark(deviation.time, words, deviation.kind in BREACHES)
+        time = self._timeline.end if deviation.kind == "out-of-order" else deviation.time
+        mark = DeviationMark(time, words, deviation.kind in BREACHES)
         self._keep(self._timeline.deviations, mark)
 
     def finish(self) -> MissionTimeline:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from sleec_runtime.model import LONGEST
 from sleec_verify.cli import exits, options
 from sleec_verify.cli.inputs import note_mixed_domains, one_ruleset
 from sleec_verify.cli.output import complain, report
@@ -47,14 +48,14 @@ _EXCLUSIVE = {
 @click.option(
     "--tolerance",
     metavar="SECONDS",
-    type=click.FloatRange(min=0),
+    type=options.Seconds(LONGEST),
     help="Allow for this delay in the log: an obligation may be executed this much later. [default: 1, or that of the "
     "mapping]",
 )
 @click.option(
     "--max-lag",
     metavar="SECONDS",
-    type=click.FloatRange(min=0),
+    type=options.Seconds(LONGEST),
     default=0,
     help="Sort observations by time if they are at most this late.",
 )

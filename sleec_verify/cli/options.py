@@ -94,13 +94,13 @@ def _limit(context: click.Context, parameter: click.Parameter, written: str) -> 
     context.find_root().with_resource(size_limit(size))
 
 
-class _Seconds(click.FloatRange):
-    """A time in seconds, up to about 30 years."""
+class Seconds(click.FloatRange):
+    """A time in seconds. It has an upper bound, which also rejects infinity."""
 
     name = "seconds"
 
-    def __init__(self) -> None:
-        super().__init__(min=0, min_open=True, max=10**9)
+    def __init__(self, most: float, min_open: bool = False) -> None:
+        super().__init__(min=0, min_open=min_open, max=most)
 
     def convert(self, value: Any, parameter: click.Parameter | None, context: click.Context | None) -> float:
         seconds = float(super().convert(value, parameter, context))
@@ -119,7 +119,8 @@ def _within(context: click.Context, parameter: click.Parameter, seconds: float |
 
 _TIMEOUT: dict[str, Any] = {
     "metavar": "SECONDS",
-    "type": _Seconds(),
+    # Up to about 30 years.
+    "type": Seconds(10**9, min_open=True),
     "help": "Stop after this time; checks that are not finished are unknown. This limit replaces the default limit, "
     "a number of steps for each file, which is the same on every machine.",
 }

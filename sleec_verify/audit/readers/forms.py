@@ -17,8 +17,10 @@ def open_log(path: Path, topics: Collection[str] | None = None) -> Reader:
     Messages on topics that are not in `topics` may be skipped; None: all topics are read.
 
     Raises:
-        UnreadableLog: a library for this form is not installed, or the form is not supported.
+        UnreadableLog: the log is a pipe or device, a library for this form is not installed, or the form is not
+            supported. A missing log is reported when it is read.
     """
+    _require_files(path)
     try:
         if path.is_dir() or path.suffix in (".mcap", ".db3"):
             from sleec_verify.audit.readers.rosbag2 import RosBag
@@ -36,3 +38,13 @@ def open_log(path: Path, topics: Collection[str] | None = None) -> Reader:
     if path.suffix == ".zstd":
         raise UnreadableLog(f"{path} is one compressed file of a bag", "name the folder with its metadata.yaml")
     return JsonLines(path)
+
+
+def _require_files(path: Path) -> None:
+    """Rejects a pipe or device, and a folder with one: opening a pipe waits for a writer. Raises UnreadableLog."""
+    try:
+        for file in path.iterdir() if path.is_dir() else [path]:
+            if file.exists() and not (file.is_file() or file.is_dir()):
+                raise UnreadableLog(f"{file} is not a regular file")
+    except OSError as problem:
+        raise UnreadableLog(f"{path} cannot be read: {problem.strerror}") from None

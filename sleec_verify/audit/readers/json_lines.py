@@ -19,6 +19,7 @@ class JsonLines:
 
     def __init__(self, path: Path) -> None:
         self.path = path
+        self._size = 0
 
     def read(self, start: Position = None) -> Iterator[tuple[Position, Item]]:
         """See `Reader.read`. Empty lines are skipped.
@@ -30,6 +31,7 @@ class JsonLines:
             with open(self.path, "rb", opener=_open_without_waiting) as file:
                 if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
                     raise UnreadableLog(f"{self.path} is not a regular file")
+                self._size = os.fstat(file.fileno()).st_size
                 offset, number = self._resume(file, start)
                 while line := file.readline(LONGEST_LINE + 1):
                     begin, offset, number = offset, offset + len(line), number + 1
@@ -49,15 +51,18 @@ class JsonLines:
 
     def fraction(self, position: Position) -> float:
         """See `Reader.fraction`."""
-        size = self.path.stat().st_size
-        return min(1.0, _numbers(position)[0] / size) if size else 1.0
+        return min(1.0, _numbers(position)[0] / self._size) if self._size else 1.0
 
     def _resume(self, file: BinaryIO, start: Position) -> tuple[int, int]:
         offset, number = _numbers(start)
         if offset:
             file.seek(offset - 1)
-            if file.read(1) != b"\n":
+            last = file.read(1)
+            # The last line may have had no line break when the position was saved.
+            rest = b"" if last == b"\n" else file.readline(LONGEST_LINE)
+            if not last or rest.strip():
                 raise UnreadableLog(f"{self.path} has changed since the position was saved", "audit it from the start")
+            offset += len(rest)
         return offset, number
 
     def _item(self, line: bytes, number: int) -> Item | None:

@@ -30,12 +30,12 @@ class Undecodable(Exception):
 class MessageTypes:
     """Decodes messages. A definition in the bag takes precedence over the standard one, and is read when it is used.
 
-    `distribution` is the ROS distribution of the recorder, such as ``humble``; None if it is not known. Without it, the
-    standard types are those of the newest distribution. With `is_compressed`, each message is compressed with zstd.
+    `distribution` is the ROS distribution of the recorder, such as ``humble``. Without a text, the standard types are
+    those of the newest distribution. With `is_compressed`, each message is compressed with zstd.
     """
 
-    def __init__(self, distribution: str | None, is_compressed: bool = False) -> None:
-        self._distribution = distribution
+    def __init__(self, distribution: object, is_compressed: bool = False) -> None:
+        self._distribution = distribution if isinstance(distribution, str) else None
         self._is_compressed = is_compressed
         self._stores: dict[tuple[str, MessageDefinition], Typestore] = {}
 

@@ -142,6 +142,7 @@ class RosBag:
             else:
                 bag = _SqliteFile(path)
             bag.open()
+            _check_types(bag)
         except UnreadableLog:
             raise
         except FileNotFoundError:
@@ -169,7 +170,8 @@ class RosBag:
         at = file.metadata.start_time
         problem = None
         try:
-            for connection, at, data in file.messages(wanted, start) if wanted else ():
+            for connection, time, data in file.messages(wanted, start) if wanted else ():
+                at = _time(time)
                 yield _Message(at, connection, data)
         except Exception as error:  # noqa: BLE001 - rosbags may raise any exception on corrupt data
             problem = f"it is damaged after this time, and not read further: {_reason(error)}"
@@ -183,6 +185,27 @@ def _files(bag: Any) -> list[Any]:
     """The readers of the files of a recording."""
     files: list[Any] = getattr(bag, "storages", [bag])
     return files
+
+
+def _check_types(bag: Any) -> None:
+    """Checks what rosbags does not: YAML and SQLite may have values of any type everywhere. Raises TypeError."""
+    try:
+        for file in _files(bag):
+            for time in (file.metadata.start_time, file.metadata.end_time):
+                _time(time)
+            for one in (*bag.connections, *file.connections):
+                for name in (one.topic, one.msgtype):
+                    if not isinstance(name, str):
+                        raise TypeError(f"{represent(name)} is not the name of a topic or type")
+    except TypeError:
+        bag.close()
+        raise
+
+
+def _time(value: object) -> int:
+    if type(value) is not int:
+        raise TypeError(f"{represent(value)} is not a time in nanoseconds")
+    return value
 
 
 def _item(message: _Message, types: MessageTypes, unknown: set[str]) -> Item | None:

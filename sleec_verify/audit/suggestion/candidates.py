@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from decimal import Context, Decimal
 from functools import lru_cache
 from typing import Literal
 
 from sleec_runtime.language.common.formula_printer import print_number
+from sleec_runtime.model import Rational
 from sleec_runtime.support.messages import listed, represent
 from sleec_runtime.support.word_forms import stem, words_of_each
 from sleec_verify.audit.suggestion.log_topics import FieldValues, Topic
@@ -76,6 +78,10 @@ def _range(found: FieldValues) -> str:
     return f"{_decimal(found.least)} to {_decimal(found.most)}"
 
 
-def _decimal(number: object) -> str:
-    text = print_number(number)  # type: ignore[arg-type]
-    return text if len(text) < 12 else f"{float(number):g}"  # type: ignore[arg-type]
+def _decimal(number: Rational) -> str:
+    text = print_number(number)
+    if len(text) < 12:
+        return text
+    # Numbers of a log may be larger than a float can be.
+    rounded = Context(prec=6).divide(Decimal(number.numerator), Decimal(number.denominator))
+    return f"{rounded.normalize():g}"

@@ -267,6 +267,38 @@ def test_a_missing_log_is_an_error(cli: Cli) -> None:
     assert "file missing.jsonl does not exist" in ran.err
 
 
+@pytest.mark.parametrize("option", ["--tolerance", "--max-lag"])
+@pytest.mark.parametrize("seconds", ["nan", "-nan", "inf", "-inf", "1e400", "1e13", "-1", "x"])
+def test_a_time_that_is_no_number_of_seconds_is_refused(option: str, seconds: str, cli: Cli) -> None:
+    ran = cli(*COMMAND, option, seconds, files=files(START))
+    assert ran.code == 2
+    assert f"Invalid value for '{option}'" in ran.err
+
+
+LONG = "x" * 300
+
+
+@pytest.mark.parametrize("name", ["missing", "missing.mcap", "missing.parquet", LONG, f"{LONG}.mcap", f"{LONG}.db3"])
+@pytest.mark.parametrize("more", [(), ("--suggest-mapping",)])
+def test_a_log_that_cannot_be_opened_is_named(name: str, more: tuple[str, ...], cli: Cli) -> None:
+    ran = cli("audit", name, "--ruleset", "rules.sleec", *more, files=files(START))
+    assert ran.code == 2
+    assert ran.err.startswith(("error: file missing", f"error: {name} cannot be read: "))
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="Windows has no pipes in folders")
+@pytest.mark.parametrize("name", ["a.jsonl", "a.mcap", "a.db3", "a.parquet", "bag/metadata.yaml", "bag/a.mcap"])
+@pytest.mark.parametrize("more", [(), ("--suggest-mapping",)])
+def test_a_pipe_is_not_waited_for(name: str, more: tuple[str, ...], cli: Cli, tmp_path: Path) -> None:
+    (tmp_path / "bag").mkdir()
+    (tmp_path / "bag" / "metadata.yaml").touch()
+    (tmp_path / name).unlink(missing_ok=True)
+    os.mkfifo(tmp_path / name)
+    ran = cli("audit", name.split("/")[0], "--ruleset", "rules.sleec", *more, files=files(START))
+    assert ran.code == 2
+    assert f"{name} is not a regular file" in ran.err
+
+
 def test_a_mapping_that_does_not_fit_the_rules_is_an_error(cli: Cli) -> None:
     mapping = {"m.toml": "[events]\nCurtainReqest = {topic = '/t'}"}
     ran = cli(*COMMAND, "--mapping", "m.toml", files=files(START, **mapping))

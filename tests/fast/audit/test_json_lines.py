@@ -52,6 +52,30 @@ def test_a_half_written_last_line_is_read_again_later(tmp_path: Path) -> None:
     assert [item for _, item in reader.read(position)] == [Occurred(1, "E")]
 
 
+@pytest.mark.parametrize("end", ["", "\n", "\r\n", "  \n", f"\n{LINES[2]}"])
+def test_a_last_line_may_have_no_line_break(end: str, tmp_path: Path) -> None:
+    reader = log(tmp_path, LINES[0] + LINES[1][:-1])
+    *_, (position, item) = reader.read()
+    assert item == Occurred(1, "E")
+    log(tmp_path, LINES[0] + LINES[1][:-1] + end + ("" if end.endswith("\n") else "\n") + "{nonsense}\n")
+    *more, (_, unreadable) = reader.read(position)
+    assert [item for _, item in more] == ([Occurred(2, "E")] if LINES[2] in end else [])
+    assert isinstance(unreadable, Unreadable)
+    assert unreadable.line == 3 + len(more)
+    log(tmp_path, LINES[0] + LINES[1][:-1] + LINES[2])
+    with pytest.raises(UnreadableLog, match="has changed since"):
+        list(reader.read(position))
+
+
+def test_a_log_may_be_removed_while_it_is_read(tmp_path: Path) -> None:
+    reader = log(tmp_path, "".join(LINES))
+    items = reader.read()
+    position, _ = next(items)
+    reader.path.unlink()
+    assert reader.fraction(position) == 0.2
+    assert len(list(items)) == 4
+
+
 def test_a_long_line_is_skipped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(json_lines, "LONGEST_LINE", 2**20)
     reader = log(tmp_path, LINES[0] + "x" * 3 * 2**20 + "\n" + LINES[1])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -80,9 +81,47 @@ def test_values_of_fields_are_conditions_and_measures() -> None:
     ]
 
 
-def parse_number(text: str) -> Any:
-    from fractions import Fraction
+@pytest.mark.parametrize(
+    ("entry", "raw", "problem"),
+    [
+        ('equals = "dark"', None, None),
+        ("equals = 3", math.nan, None),
+        ("equals = 3", "3", "'3' is not a number, as in `equals`"),
+        ('equals = "3"', 3, "3 is not a text, as in `equals`"),
+        ('equals = "3"', [3], "[3] is not a text, as in `equals`"),
+        ("equals = 1", True, "True is not a number, as in `equals`"),
+        ("equals = true", Fraction(1, 2), "0.5 is not true or false, as in `equals`"),
+        ("above = 3", None, None),
+        ("above = 3", math.nan, None),
+        ("above = 3", "3", "'3' is not a number"),
+        ("scale = 1", Fraction(1, 2), "0.5 is not true or false; compare it with `equals`, `above` or `below`"),
+    ],
+)
+def test_a_value_that_is_missing_or_has_another_type_is_unknown(entry: str, raw: object, problem: str | None) -> None:
+    conditions = f'[conditions]\nDark = {{topic = "/t", field = "data", {entry}}}'
+    problems = [] if problem is None else [problem]
+    assert meanings(conditions, ("/t", {"data": raw})) == [*problems, Reported(0, {"Dark": None})]
+    events = f'[events]\nButton = {{topic = "/t", field = "data", {entry}, each = false}}'
+    assert meanings(events, ("/t", {"data": raw})) == problems
 
+
+def test_an_unknown_value_does_not_repeat_an_event() -> None:
+    text = '[events]\nButton = {topic = "/t", field = "data", equals = "stop", each = false}'
+    messages = [("/t", {"data": data}) for data in ("go", "stop", None, "stop", "go", "stop")]
+    assert meanings(text, *messages) == [Occurred(1, "Button"), Occurred(5, "Button")]
+
+
+@pytest.mark.parametrize("values", ["", ", values = {home = 1, ward = 'w'}"])
+@pytest.mark.parametrize("raw", [5, Fraction(1, 2), True, [1], {"a": 1}, None, math.nan])
+def test_a_domain_is_a_text_or_a_value_with_a_name(values: str, raw: object) -> None:
+    text = f'domain = {{topic = "/t", field = "data"{values}}}'
+    is_missing = raw is None or raw != raw
+    found = meanings(text, ("/t", {"data": raw}))
+    assert len(found) == (0 if is_missing else 1)
+    assert all(isinstance(one, str) for one in found)
+
+
+def parse_number(text: str) -> Any:
     return Fraction(text)
 
 
@@ -187,7 +226,10 @@ def test_a_mapping_says_what_live_topics_are() -> None:
     [
         ("x", "m.toml is not TOML", None),
         ("evnts = 1", "m.toml: unknown key 'evnts'", "did you mean `events`?"),
-        ("tolerance = -1", "m.toml: tolerance: it is -1, not a number", None),
+        *(
+            (f"tolerance = {t}", "m.toml: tolerance: it is ", None)
+            for t in ("-1", "nan", "inf", "1e13", "1e999", "true")
+        ),
         ("events = 1", "m.toml: events: it is not a table", "[events]"),
         ('events.Button = "x"', "m.toml: [events] Button: it is 'x', not a table", "topic"),
         ("[events]\nButton = {}", "[events] Button: the key `topic` is missing", None),
@@ -214,6 +256,7 @@ def test_a_mapping_says_what_live_topics_are() -> None:
         ("[events]\nButton = {topic = '/t', field = 'a', each = 1}", "`each` is 1, not true or false", None),
         ("[events]\nButton = {action = '/t', goal = 'done'}", "the state of a goal is accepted", None),
         ("[events]\nButton = {action = '/t', goal = 'aborted', field = 'a'}", "exclude `field`", None),
+        ("domain = {topic = '/t', field = 'a', values = {home = 0, ward = 0.0}}", "two names: `home` and `ward`", None),
         ("domain = {topic = '/t', field = 'a', values = {hme = 1}}", "no domain `hme`", "did you mean `home`?"),
         ("definitions = 1", "m.toml: definitions: it is not a table", "[definitions]"),
         ("[definitions]\n'my_msgs/msg/Grip' = 1", "`my_msgs/msg/Grip` is 1, not a text", None),

@@ -158,6 +158,15 @@ def test_names_and_values_of_any_kind_give_a_valid_draft(tmp_path: Path) -> None
     assert drafted(json_log(tmp_path, []), rules())[0] == {key: {} for key in table}
 
 
+@pytest.mark.parametrize(
+    ("number", "text"),
+    [(0.25, "0.25"), (1234567890123, "1.23457e+12"), (1 / 3, "0.333333"), (-(10**400), "-1e+400"), (1e-320, "1e-320")],
+)
+def test_numbers_of_any_size_are_shown(number: float, text: str, tmp_path: Path) -> None:
+    _, draft = drafted(json_log(tmp_path, [("/ready", {"ready": number})]), rules())
+    assert f"in the log: {text} to {text}" in draft
+
+
 @pytest.mark.speed
 def test_a_draft_for_many_names_and_topics_is_fast() -> None:
     words = ("Battery", "Door", "User", "Curtain", "Arm", "Speed", "Joint", "Light")

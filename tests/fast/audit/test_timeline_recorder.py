@@ -92,6 +92,17 @@ def test_prohibitions_and_deviations() -> None:
     ]
 
 
+def test_what_is_out_of_order_is_shown_when_it_counts() -> None:
+    timeline = record(
+        [Occurred(100, "Fall"), Executed(50, "Help"), Reported(20, {"Quiet": True}), Entered(101, "home")]
+    )
+    assert (timeline.start, timeline.end) == (100, 101)
+    assert timeline.executions == [Occurrence(100, "Help")]
+    assert timeline.changes == [Change(100, "Quiet", True)]
+    backwards = [mark for mark in timeline.deviations if "earlier" in mark.words]
+    assert [mark.time for mark in backwards] == [100, 100]
+
+
 def test_a_long_mission_is_cut(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(timeline_recorder, "MOST", 6)
     timeline = record([one for time in range(9) for one in (Occurred(time, "Fall"), Executed(time, "Help"))])
