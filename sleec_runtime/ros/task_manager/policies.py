@@ -52,6 +52,9 @@ class HeldTriggers:
                 return True
         return False
 
+    def __len__(self) -> int:
+        return len(self._held)
+
     def take(self) -> HeldTrigger | None:
         """Removes the first trigger that waits; None if there is none."""
         with self._lock:

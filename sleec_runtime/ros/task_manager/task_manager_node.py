@@ -75,6 +75,7 @@ class TaskManagerNode:
         self._triggers = frozenset(by_label[label].trigger for label in self._rules)
         self._sleec = sleec
         self._node = Node(name, transport, sleec.clock, on_problem)
+        sleec.listen(self._anticipate)
         self._held = HeldTriggers(self._node.clock, longest_hold)
         self._mission_ids = RecentIds()
         with self._node.starting():
@@ -84,7 +85,6 @@ class TaskManagerNode:
             self._obligations = ObligationsListener(self._node, sleec, self.layer_listener, self._report_error)
             self._node.listen(MissionEvent, self._receive)
             self._node.every(timeout, self._expire)
-        sleec.listen(self._anticipate)
 
     def subscribe(self, topic: str | Topic, trigger: str) -> None:
         """Takes each message on `topic` as an occurrence of `trigger`. The code of its rules gets the fields.
@@ -177,7 +177,8 @@ class TaskManagerNode:
 
     def _release(self) -> None:
         """Decides what is held, until the code of a rule takes the node out of step again."""
-        while self.layer_listener.in_step and (held := self._held.take()) is not None:
+        # In this order: the first messages may arrive before there is a Layer Listener, when nothing is held.
+        while self._held and self.layer_listener.in_step and (held := self._held.take()) is not None:
             if held.until < self._node.clock.now():
                 self._refuse(held.trigger, held.arrived, "it was held for too long")
             else:

@@ -11,9 +11,11 @@ from sleec_runtime import Sleec, VirtualClock, language
 from sleec_runtime.errors import SleecError
 from sleec_runtime.ros import ContextManagerNode, Network, TaskManagerNode
 from sleec_runtime.ros.faults import Faults, FaultyTransport
+from sleec_runtime.ros.in_process import InProcessPublisher, InProcessTransport
 from sleec_runtime.ros.messages import LayersUpdate
 from sleec_runtime.ros.problems import NoManager, OutOfStep, RulesDiffer, SecondManager
 from sleec_runtime.ros.task_manager.policies import Policy
+from sleec_runtime.ros.transport import Fields, Topic
 from tests.support.robot_nodes import Robot
 
 TEXT = """
@@ -217,3 +219,27 @@ def test_an_update_with_other_layers_than_the_task_derives_puts_it_out_of_step()
     assert isinstance(robot.problems[0], OutOfStep)
     assert "update 1 names other layers than this node derives" in str(robot.problems[0])
     assert robot.trigger("Ring") == []
+
+
+class Prompt(InProcessPublisher):
+    """Other nodes answer before the sender continues, as their threads may."""
+
+    def publish(self, fields: Fields) -> None:
+        super().publish(fields)
+        self._network.deliver()
+
+
+class PromptTransport(InProcessTransport):
+    """A transport whose messages are answered at once."""
+
+    def publisher(self, topic: Topic) -> InProcessPublisher:
+        return Prompt(self, self._network, topic)
+
+
+def test_a_context_manager_may_answer_while_a_task_starts(caplog: pytest.LogCaptureFixture) -> None:
+    robot = Robot(RULES)
+    robot.report({"Night": True})
+    node = robot.task(transport=PromptTransport(robot.network, threads=False))
+    assert node.layer_listener.in_step
+    assert robot.trigger("Ring") == ["Whisper"]
+    assert caplog.messages == []
