@@ -202,7 +202,7 @@ class Auditor:
         found = list(self._trigger(moment))
         unrequired = [name for name in moment.executions if not self._is_required(name, moment.time)]
         for event in sorted(moment.executed):
-            for duty in self.duties.occur(event, moment.time):
+            for duty in self.duties.occur(event, moment.time, max(1, moment.executions.count(event))):
                 found += self._settled(duty)
         prohibited = {one.obligation.name for one in found if one.kind == "prohibited" and one.obligation is not None}
         found += [

@@ -59,14 +59,14 @@ class OpenDuties:
             if not due.obligation.negated and self._covers(due, now)
         ]
 
-    def occur(self, event: str, now: Rational) -> list[Duty]:
-        """The duties that an occurrence of `event` settles."""
+    def occur(self, event: str, now: Rational, times: int = 1) -> list[Duty]:
+        """The duties that `event` settles, which occurs so many `times` now."""
         entries = [entry for entry in self._by_event.get(event, {}).values() if self._covers(entry[0], now)]
         requiring = {duty.triggered.time for due, duty in entries if not due.obligation.negated}
-        oldest = min((due.first for due, _ in entries if _is_due_at_once(due)), default=now)
+        oldest = sorted({due.first for due, _ in entries if _is_due_at_once(due)})[:times]
         touched = {}
         for due, duty in entries:
-            if _is_due_at_once(due) and due.first != oldest:
+            if _is_due_at_once(due) and due.first not in oldest:
                 continue
             exact = due.last is None or now <= due.last
             if due.obligation.negated and not exact and requiring - {duty.triggered.time}:

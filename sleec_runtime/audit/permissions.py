@@ -30,10 +30,10 @@ class Permissions:
         return until is None or now <= until
 
     def end(self, duty: Duty) -> None:
-        """Records the ends of the missed windows of a settled duty."""
+        """Records the ends of the windows of a settled duty that were met or missed."""
         for due in duty.task.dues():
-            if due.met is False and not due.obligation.negated and due.last is not None:
-                self._extend(due.obligation.name, due.last + self.tolerance)
+            if due.met is not None and not due.obligation.negated:
+                self._extend(due.obligation.name, None if due.last is None else due.last + self.tolerance)
 
     def permit_all(self, rule: Rule, now: Rational) -> None:
         """Permits all that a rule may require if it is triggered now, because what it requires is unknown."""

@@ -88,6 +88,18 @@ def kinds(rules: str, text: str, end: int | None = 10**6, **options) -> list[tup
             ),
             [],
         ),
+        # A coarse clock gives executions the same time.
+        ("0 UserUndressed=false | 1 CurtainOpenRequest | 2 CurtainOpenRequest !CurtainOpened !CurtainOpened", []),
+        (
+            "0 UserUndressed=false | 1 CurtainOpenRequest | 2 CurtainOpenRequest !CurtainOpened",
+            [("missed", 2, "CurtainOpened")],
+        ),
+        # An event that is an obligation, too, does not end the time in which it is required.
+        ("0 UserUndressed=false | 1 CurtainOpenRequest | 1.5 CurtainOpened | 2 !CurtainOpened", []),
+        (
+            "0 UserUndressed=false | 1 CurtainOpenRequest | 1.5 CurtainOpened | 2.1 !CurtainOpened",
+            [("unrequired", 2.1, "CurtainOpened")],
+        ),
         ("1 CurtainOpenRequest | 1.5 !CurtainOpened", [("undetermined", 1, "")]),
         (
             "0 UserUndressed=false | 1 UserUndressed=? | 2 CurtainOpenRequest | 2.1 !CurtainOpened",
