@@ -64,7 +64,12 @@ class TraceIndex(Memo):
     def stated(self) -> TraceIndex:
         """The same with states in place of the inputs that conditions name (`sleec_verify.traces.event_conditions`)."""
         ruleset = with_states(self.ruleset, self.mere_inputs)
-        return self if ruleset is self.ruleset else TraceIndex(ruleset, self.untimed, self.recorder)
+        if ruleset is self.ruleset:
+            return self
+        found = TraceIndex(ruleset, self.untimed, self.recorder)
+        # A part of a ruleset has no declarations.
+        found.agents = self.root.agents
+        return found
 
     def part(self, rules: Iterable[Rule], relations: Iterable[Relation]) -> TraceIndex:
         """Some of the rules and relations. Events keep their roles in the whole ruleset."""

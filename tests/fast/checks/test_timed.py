@@ -9,7 +9,10 @@ from sleec_runtime.language import parse
 from sleec_runtime.model import Context
 from sleec_verify.checks import CHECKS, run_checks
 from sleec_verify.entailment.entailment import entail
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Proved, Refuted, Unknown
+from sleec_verify.traces.components import components
+from sleec_verify.traces.index import trace_index_of
 
 TEXT = """def_start
   event A
@@ -241,3 +244,34 @@ def test_many_rules_that_call_for_one_event_are_decided(rules, window):
     assert found["conflict"].verdict == Proved()
     assert found["vacuous-conflict"].verdict == Proved()
     assert found["redundant-rule"].verdict != Proved()
+
+
+ROLES = """def_start
+  event A
+  event B
+  event C as environment
+  measure m: boolean
+def_end
+rule_start
+  {}
+rule_end
+"""
+
+
+@pytest.mark.parametrize(
+    "rules",
+    [
+        "R1 when A then B within 5 seconds unless C then not C within 3 seconds",
+        "R1 when A then {not B else C unless C then not C}",
+        "R1 when A then B unless C then not C R2 when B then C",
+    ],
+)
+def test_an_input_that_a_condition_names_and_a_response_forbids_is_an_input(rules):
+    """The declaration says who causes an event, in every part of the ruleset."""
+    ruleset = parse(ROLES.format(rules))
+    (result,) = run_checks(ruleset, ["conflict"])
+    assert isinstance(result.verdict, Refuted)
+    assert any("`C` occurs but is forbidden" in finding.message for finding in result.findings)
+    traces = trace_index_of(RulesetIndex(ruleset))
+    for part in components(traces.part(traces.rules, traces.relations)):
+        assert part.mere_inputs == part.stated.mere_inputs == traces.mere_inputs == {"A", "C"}
