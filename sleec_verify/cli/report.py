@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 import click
@@ -73,7 +73,8 @@ def command(
     if output is not None:
         from sleec_verify.files.placement import require_writable
 
-        require_writable(output, (path for path in files(paths) if not isinstance(path, UnusableInput)))
+        inputs = [path for path in files(paths) if not isinstance(path, UnusableInput)]
+        require_writable(output, (*inputs, *([] if base is None else [base]), *_files_below(certificate)))
     cache = None if no_cache else cache_of_environment()
     found = rulesets(paths, scope.reading, scope.domain)
     if certificate is not None and len(found) > 1:
@@ -94,6 +95,11 @@ def command(
     return exits.code(
         (result for one in contents if not isinstance(one, UnusableInput) for result in one.outcome.results), fail_level
     )
+
+
+def _files_below(folder: str | None) -> Iterator[str]:
+    for home, _, names in os.walk(folder) if folder is not None else ():
+        yield from (os.path.join(home, name) for name in names)
 
 
 def _has_unusable_base(content: Content) -> bool:

@@ -130,10 +130,16 @@ def test_small_texts_have_a_report(cli: Cli, text: str, code: int) -> None:
     Page(ran.out)
 
 
-def test_an_output_that_is_an_input_is_rejected(cli: Cli) -> None:
-    ran = cli("report", "rules.sleec", "-o", "rules.sleec", files={"rules.sleec": CONFLICT})
+INPUTS = ("rules.sleec", "old.sleec", "proofs/manifest.json", "proofs/deep/proof.lrat")
+
+
+@pytest.mark.parametrize("name", INPUTS)
+def test_an_output_that_is_an_input_is_rejected(name: str, cli: Cli) -> None:
+    options = ("--base", "old.sleec", "--certificate", "proofs", "-o", name)
+    ran = cli("report", "rules.sleec", *options, files=dict.fromkeys(INPUTS, CONFLICT))
     assert ran.code == 2
     assert "is an input" in ran.err
+    assert Path(name).read_text("utf-8") == CONFLICT
 
 
 def test_the_page_shows_what_changed_since_a_file(cli: Cli) -> None:
