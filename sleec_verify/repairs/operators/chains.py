@@ -33,6 +33,8 @@ def _independent_of_reading(ruleset: Ruleset, finding: Finding) -> Iterator[Cand
     all earlier ones cascade."""
     rule = ruleset.by_label[finding.rules[0]]
     conditions = [hedge.condition for hedge in rule.hedges if hedge.condition is not None]
+    if not conditions:  # the exceptions are those of a clause
+        return
     wider = [_any(conditions[number:]) for number in range(len(conditions))]
     narrower = [_all(conditions[: number + 1]) for number in range(len(conditions))]
     for reading, others in (("priority", wider), ("cascade", narrower)):

@@ -50,6 +50,13 @@ def test_the_dsl_has_conditions_for_which_both_readings_agree() -> None:
     ]
 
 
+def test_exceptions_of_a_clause_have_no_such_repair() -> None:
+    text = DSL.format("", "")
+    clause = "R1 when Fall then {Call unless {awake} then Ask unless {alone} then Ring}\n"
+    start, end = text.index("// who calls"), text.index("R2")
+    assert after(f"{text[:start]}{clause}{text[end:]}", "SLEEC401") == []
+
+
 def test_exceptions_with_one_response_are_one_exception() -> None:
     text = DSL.format("then Ask", "then Ask").replace(" // the bell", "")
     assert text.replace("unless {awake} then Ask\n      unless {alone}", "unless ({awake} or {alone})") in after(
