@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from math import ceil, floor
 
-from sleec_runtime.model import Clause, Context, Length, Obligation, Ruleset, in_text_order
+from sleec_runtime.model import Clause, Context, Length, Obligation, Rational, Ruleset, in_text_order
 from sleec_verify.encoding.cnf import Encoder
 from sleec_verify.encoding.solver import MiniSat
 from sleec_verify.encoding.trace_scope import Untimed
@@ -98,7 +98,7 @@ class ResponseWindows:
             assert answer, "in a total context something decides"
             return next(c for c, literal in zip(in_text_order(clause), decides) if solver.holds(literal))
 
-    def _seconds(self, length: Length) -> float | None:
+    def _seconds(self, length: Length) -> Rational | None:
         """A length in seconds. If it depends on measures, the situation gives their values; None if one is missing."""
         values = {}
         for name in length.measures:
@@ -106,4 +106,4 @@ class ResponseWindows:
             if given is None or isinstance(given, (bool, str)):
                 return None
             values[name] = given
-        return float(length.seconds_where(values))
+        return length.seconds_where(values)

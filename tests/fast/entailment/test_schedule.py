@@ -42,6 +42,12 @@ def _times(entries: tuple[ScheduledResponse, ...]) -> list[tuple[str, int | None
     return [(entry.event, entry.start, entry.end, entry.after) for entry in entries]
 
 
+@pytest.mark.parametrize("amount", [10**16 + 1, 10**99 + 1, 10**400 + 1])
+def test_lengths_are_exact(amount: int) -> None:
+    text = "MEASURE wait: integer\nWHEN A THEN B WITHIN wait seconds\n"
+    assert _times(_entries(text, "A", wait=amount)) == [("B", 0, amount, None)]
+
+
 def test_windows_are_clock_times_and_chains_count_from_what_is_done() -> None:
     assert _times(_entries(SMOKE, "SmokeDetected")) == [
         ("CallHelp", 0, 300, None),
