@@ -112,9 +112,6 @@ class DutyMaker(NamedTuple):
         if timing is not None and timing.otherwise is not None:
             end = self._end(window, since, last)
             if end is None:
-                assert window is not None
-                assert window.end is not None
-                missing.update(dict.fromkeys(window.end.measures))
                 alternatives.append(None)
             else:
                 alternatives.append(self._clause(timing.otherwise, end, situation, missing))

@@ -89,9 +89,11 @@ class TimelineRecorder:
 
 
 def _windows(duty: Duty) -> Iterator[DueWindow]:
-    """The windows of a duty. Those of an alternative that was not necessary are left out."""
+    """The windows of a duty. Those of an alternative that was not necessary are left out, and so are prohibitions
+    whose window has a negative length."""
     for due in duty.task.dues():
-        if not (due.met is None and duty.settled and duty.task.met()):
+        has_effect = not due.obligation.negated or due.last is None or due.first <= due.last
+        if has_effect and not (due.met is None and duty.settled and duty.task.met()):
             last: Rational | None = due.last
             if last is not None and due.met and due.at is not None:
                 last = max(last, due.at)  # executed within the tolerance

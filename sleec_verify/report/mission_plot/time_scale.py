@@ -11,6 +11,8 @@ from sleec_runtime.model import Rational
 
 _STEPS = (1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 10800, 21600, 43200, 86400)
 """Seconds between two labels."""
+_CHARACTER, _GAP = 6, 12
+"""Pixels."""
 _EPOCH = 10**8
 """Times from here on count from 1970: three years is longer than a mission."""
 
@@ -31,8 +33,9 @@ class TimeScale:
         return self.left + (float(Fraction(inside - self.start) / span) * self.width if span else 0.0)
 
     def ticks(self, distance: float = 90) -> Iterator[tuple[float, str]]:
-        """Places with labels, at least `distance` pixels from each other."""
+        """Places with labels, at least `distance` pixels from each other, and more for long labels."""
         span = Fraction(self.end - self.start)
+        distance = max(distance, len(self.label(self.end)) * _CHARACTER + _GAP)
         least = span * Fraction(distance) / Fraction(self.width)
         step = _step(least)
         number = 0

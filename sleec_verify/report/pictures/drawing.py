@@ -153,5 +153,6 @@ def _short(value: float) -> str:
 
 
 def cut(words: str, most: int) -> str:
-    """At most `most` characters of a text."""
-    return words if len(words) <= most else f"{words[: most - 1]}…"
+    """At most `most` characters of a text, as it is shown: with escapes."""
+    shown = escaped(words)
+    return shown if len(shown) <= most else f"{shown[: most - 1]}…"

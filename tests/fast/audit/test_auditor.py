@@ -209,6 +209,16 @@ RULE dark WHEN TurnOnLight THEN CloseCurtains
 """
 
 
+def test_an_alternative_to_a_window_of_negative_length_is_not_decided() -> None:
+    rules = "MEASURE wait: integer\nRULE a WHEN A THEN X WITHIN wait seconds OTHERWISE Y"
+    found = audit(Auditor(parse(rules)), mission("0 wait=-3 | 10 A | 12 !Y"), 30)
+    assert [message(one) for one in found if one.kind != "unrequired"] == [
+        "at 10 s, rule `a` cannot be decided: a window has a negative length"
+    ]
+    unreported = audit(Auditor(parse(rules)), mission("10 A | 12 !Y"), 30)
+    assert message(unreported[0]) == "at 10 s, rule `a` cannot be decided: `wait` was not reported"
+
+
 def test_with_chains_an_execution_triggers_rules() -> None:
     text = "1 GuestArrives | 1.1 !TurnOnLight"
     assert kinds(CHAIN, text) == [("missed", 1.1, "CloseCurtains")]
@@ -245,8 +255,9 @@ def test_an_observation_out_of_order_counts_as_simultaneous() -> None:
 
 
 def test_wrong_arguments_are_refused() -> None:
-    with pytest.raises(WrongType):
-        Auditor(parse(FALL), tolerance=-1)
+    for tolerance in (-1, float("nan"), float("inf"), 10**13, True, "1"):
+        with pytest.raises(WrongType):
+            Auditor(parse(FALL), tolerance=tolerance)  # type: ignore[arg-type]
     with pytest.raises(UnknownDomain):
         Auditor(parse(DOMAINS), domain="house")
 

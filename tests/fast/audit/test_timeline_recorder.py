@@ -23,8 +23,8 @@ WHEN Fall THEN Help
 """
 
 
-def record(mission: Sequence[Observation], end: int | None = None) -> MissionTimeline:
-    auditor = Auditor(parse(RULES), tolerance=1)
+def record(mission: Sequence[Observation], end: int | None = None, rules: str = RULES) -> MissionTimeline:
+    auditor = Auditor(parse(rules), tolerance=1)
     recorder = TimelineRecorder("log", auditor)
     for observation in mission:
         recorder.observe(observation)
@@ -101,6 +101,14 @@ def test_what_is_out_of_order_is_shown_when_it_counts() -> None:
     assert timeline.changes == [Change(100, "Quiet", True)]
     backwards = [mark for mark in timeline.deviations if "earlier" in mark.words]
     assert [mark.time for mark in backwards] == [100, 100]
+
+
+@pytest.mark.parametrize(("length", "drawn"), [(-1, []), (0, [("B", "prohibited", 5, 5)])])
+def test_a_prohibition_whose_window_has_a_negative_length_is_not_drawn(
+    length: int, drawn: list[tuple[object, ...]]
+) -> None:
+    rules = "MEASURE wait: integer\nRULE a WHEN A THEN NOT B WITHIN wait minutes"
+    assert windows(record([Reported(1, {"wait": length}), Occurred(5, "A")], 9, rules)) == drawn
 
 
 def test_a_long_mission_is_cut(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -166,6 +166,20 @@ def test_the_axis_has_usual_times(seconds: Rational, labels: list[str]) -> None:
     assert all(right - left >= 90 for (left, _), (right, _) in pairwise(ticks))
 
 
+@pytest.mark.parametrize("digits", range(-3, 13))
+def test_long_labels_of_the_axis_do_not_overlap(digits: int) -> None:
+    for seconds in (Fraction(10) ** digits, 3 * Fraction(10) ** digits):
+        ticks = list(TimeScale(5, 5 + seconds, 0, 920).ticks())
+        assert all(right - left >= 6 * len(label) + 12 for (left, _), (right, label) in pairwise(ticks))
+
+
+@pytest.mark.parametrize("name", ["n" * 300, "\x00" * 300, "\ud800" * 300, "\u202e\x1b[31m" * 60])
+def test_long_names_end_where_the_picture_begins(name: str) -> None:
+    picture = drawn(MissionTimeline("log", 0, 90, triggers=[Occurrence(5, name)]))
+    (label,) = (text for text in texts(picture) if text.endswith("…"))
+    assert len(label) == 34
+
+
 def test_bars_in_one_lane_do_not_overlap() -> None:
     chance = Random(2)
     intervals = [(left := chance.random() * 90, left + chance.random() * 9, None) for _ in range(50)]
