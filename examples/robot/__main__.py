@@ -11,15 +11,13 @@ if one of its processes fails.
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 import tempfile
 import threading
 from contextlib import ExitStack
 from pathlib import Path
-
-from examples.robot.rules import RULES
-from sleec_runtime.ros.dds.environment import LOOPBACK
 
 MAPPING = Path(__file__).parent / "mapping.toml"
 
@@ -37,12 +35,14 @@ PROCESSES = (
 def environment() -> dict[str, str]:
     """The environment of the processes: only this computer, unless CYCLONEDDS_URI says otherwise, and a DDS domain of
     their own, unless ROS_DOMAIN_ID does."""
+    from sleec_runtime.ros.dds.environment import LOOPBACK
+
     own = {"CYCLONEDDS_URI": LOOPBACK, "ROS_DOMAIN_ID": str(1 + os.getpid() % 99)}
     return {**own, **os.environ, "PYTHONUNBUFFERED": "1"}
 
 
 class Process:
-    """A process of the robot. It runs until its input ends."""
+    """A process of the robot. It runs until its input ends. Ctrl-C does not reach it: this program ends it."""
 
     def __init__(self, name: str, *arguments: str) -> None:
         self._name = " ".join((name, *arguments))
@@ -52,12 +52,14 @@ class Process:
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
+            start_new_session=True,
         )
 
     def await_start(self) -> None:
         """Waits until its node is ready."""
         assert self._process.stdout is not None
         watchdog = threading.Timer(PATIENCE, self._process.kill)
+        watchdog.daemon = True
         watchdog.start()
         line = self._process.stdout.readline()
         watchdog.cancel()
@@ -75,6 +77,10 @@ class Process:
 
 
 def main() -> int:
+    # As Ctrl-C: also a process manager must not leave processes behind.
+    signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
+    from examples.robot.rules import RULES
+
     log = sys.argv[1] if len(sys.argv) > 1 else str(Path(tempfile.mkdtemp(prefix="sleec-robot-")) / "mission.jsonl")
     with ExitStack() as ends:
         processes = [Process("recorder", log), *(Process(*arguments) for arguments in PROCESSES)]
@@ -83,7 +89,9 @@ def main() -> int:
         for process in processes:
             process.await_start()
         print(f"{len(processes)} processes run over DDS in domain {environment()['ROS_DOMAIN_ID']}.", flush=True)
-        mission = subprocess.run([sys.executable, "-m", "examples.robot.mission"], env=environment(), check=False)
+        mission = subprocess.run(
+            [sys.executable, "-m", "examples.robot.mission"], env=environment(), check=False, start_new_session=True
+        )
     print(f"The record is {log}.\n", flush=True)
     audited = subprocess.run(
         [sys.executable, "-m", "sleec_verify", "audit", log, "--ruleset", str(RULES), "--mapping", str(MAPPING)],

@@ -1,13 +1,12 @@
 """What all processes of the robot share: a transport, a start, and an end."""
 
-# ruff: noqa: T201 - the line `ready` tells the launcher that the process has started
-
 from __future__ import annotations
 
 import os
 import sys
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 from sleec_runtime.errors import SleecError
@@ -30,7 +29,9 @@ def run(start: Callable[[Transport], Any], settle: float = 0) -> None:
             node = start(transport)
             while not _is_ready(node) and not ended.wait(0.01):
                 pass
-            print("ready", flush=True)
+            # The launcher may have ended meanwhile.
+            with suppress(BrokenPipeError):
+                os.write(sys.stdout.fileno(), b"ready\n")
             ended.wait()
             node.close()
         finally:

@@ -15,5 +15,7 @@ TOPICS = (
 )
 
 if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit("usage: python -m examples.robot.recorder LOG")
     # It waits a little, so that the record has each trigger before what the robot does.
     run(lambda transport: RecorderNode(transport, sys.argv[1], TOPICS), settle=0.2)

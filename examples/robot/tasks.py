@@ -202,4 +202,6 @@ class Dressing(Task):
 TASKS = {task.__name__: task for task in (Safety, Triage, Dressing)}
 
 if __name__ == "__main__":
+    if len(sys.argv) != 2 or sys.argv[1] not in TASKS:
+        sys.exit(f"usage: python -m examples.robot.tasks {{{','.join(TASKS)}}}")
     run(TASKS[sys.argv[1]])

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 import shutil
+import signal
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from tests.support.dds import require_dds, unused_domain
+from tests.support.dds import PATIENCE, eventually, require_dds, unused_domain
 from tests.support.paths import ROOT
 
 require_dds()
@@ -79,3 +80,28 @@ def test_a_process_that_fails_is_named(copy: Path) -> None:
     done = run(copy, copy / "mission.jsonl")
     assert done.returncode == 1
     assert "the process `context_manager` failed" in done.stderr
+
+
+@pytest.mark.parametrize("line", ["", "It greets a patient", "has ended"])
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_a_signal_ends_all_processes(number: signal.Signals, code: int, line: str, tmp_path: Path) -> None:
+    log = tmp_path / "mission.jsonl"
+    robot = subprocess.Popen(
+        [sys.executable, "-m", "examples.robot", str(log)],
+        cwd=ROOT,
+        env={**os.environ, "ROS_DOMAIN_ID": str(unused_domain())},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        start_new_session=True,
+    )
+    assert eventually(log.exists)
+    assert robot.stdout is not None
+    while line and line not in robot.stdout.readline():
+        pass
+    # To all processes of the session, as a terminal does.
+    os.killpg(robot.pid, number)
+    # The output ends when the last process has ended.
+    out, _ = robot.communicate(timeout=PATIENCE)
+    assert "Traceback" not in out
+    assert robot.returncode == code
