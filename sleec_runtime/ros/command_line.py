@@ -1,6 +1,6 @@
 """Nodes as processes: ``python -m sleec_runtime.ros context-manager | task | mission | record | monitor``.
 
-A process ends with Ctrl-C or SIGTERM. Arguments from ``--ros-args`` on are those of ROS.
+A process ends with Ctrl-C or SIGTERM (see `main`). Arguments from ``--ros-args`` on are those of ROS.
 """
 
 from __future__ import annotations
@@ -11,9 +11,10 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from importlib import import_module
 from queue import SimpleQueue
+from time import monotonic
 from typing import Any, Protocol
 
 from sleec_runtime import language
@@ -47,17 +48,28 @@ Start = Callable[[argparse.Namespace, Connect], Closable]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Runs a node until a signal ends it. Returns 0; 1 if a monitor has found a breach of the rules; 2 for an error."""
+    """Runs a node until a signal ends it. Another signal, more than a second later, does so also while code of the user
+    does not return.
+
+    Returns 0; 1 if a monitor has found a breach of the rules; 2 for an error; 130 after another signal.
+    """
     given = list(sys.argv[1:] if arguments is None else arguments)
     ros = given.index("--ros-args") if "--ros-args" in given else len(given)
     options = _parser().parse_args(given[:ros])
     logging.basicConfig(level=logging.INFO, format="%(message)s")
     # Not an Event: the handler runs in this thread, and would wait for the lock with which this thread waits.
     ended: SimpleQueue[int] = SimpleQueue()
-    before = {
-        number: signal.signal(number, lambda number, _: ended.put(number)) for number in (signal.SIGINT, signal.SIGTERM)
-    }
-    with ExitStack() as ends:
+    times: list[float] = []
+
+    def end(number: int, _: object) -> None:
+        times.append(monotonic())
+        # A terminal and a launcher may both pass on the same Ctrl-C.
+        if times[-1] - times[0] > 1:
+            raise KeyboardInterrupt
+        ended.put(number)
+
+    before = {number: signal.signal(number, end) for number in (signal.SIGINT, signal.SIGTERM)}
+    with suppress(KeyboardInterrupt), ExitStack() as ends:
         for number, handler in before.items():
             ends.callback(signal.signal, number, handler)
 
@@ -74,7 +86,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _LOG.info("%s: ready", options.name)
         ended.get()
         node.close()
-    return int(isinstance(node, MonitorNode) and node.has_found_breach)
+        return int(isinstance(node, MonitorNode) and node.has_found_breach)
+    return 130
 
 
 def _transport(options: argparse.Namespace, ros_arguments: Sequence[str], definitions: Definitions) -> Transport:
@@ -148,13 +161,22 @@ def _context_manager(options: argparse.Namespace, connect: Connect) -> Closable:
 
 def _task(options: argparse.Namespace, connect: Connect) -> Closable:
     node: Closable = _code_of_user(options.code)(connect())
+    if not callable(getattr(node, "close", None)):
+        raise SleecError(f"{represent(options.code)} is not a node", "give a subclass of TaskManagerNode")
     return node
 
 
 def _mission(options: argparse.Namespace, connect: Connect) -> Closable:
     run = _code_of_user(options.code)
     node = MissionManagerNode(connect(), name=options.name)
-    threading.Thread(target=run, args=(node,), daemon=True).start()
+
+    def guide() -> None:
+        try:
+            run(node)
+        except SleecError as error:
+            _LOG.error("%s: the mission has ended: %s", options.name, error)
+
+    threading.Thread(target=guide, daemon=True).start()
     return node
 
 
@@ -165,13 +187,13 @@ def _code_of_user(name: str) -> Callable[..., Any]:
     module, _, attribute = name.partition(":")
     try:
         code: Callable[..., Any] = getattr(import_module(module), attribute)
-    except (AttributeError, ImportError, ValueError) as error:
+    except (AttributeError, ImportError, TypeError, ValueError) as error:
         raise SleecError(
             f"{represent(name)} cannot be used: {error}", "give MODULE:NAME, and put the folder of MODULE in PYTHONPATH"
         ) from error
     try:
         signature(code).bind(None)
-    except TypeError as error:
+    except (TypeError, ValueError) as error:
         raise SleecError(
             f"{represent(name)} cannot be called with one argument: {error}",
             "a class for `task` takes the transport, and a function for `mission` takes the node",

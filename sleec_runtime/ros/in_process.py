@@ -10,7 +10,7 @@ from functools import partial
 from queue import SimpleQueue
 
 from sleec_runtime.errors import SleecError
-from sleec_runtime.ros.transport import Fields, Receive, Topic
+from sleec_runtime.ros.transport import LONGEST_CLOSE, Fields, Receive, Topic
 
 _LOG = logging.getLogger("sleec_runtime.ros")
 
@@ -112,7 +112,7 @@ class InProcessTransport:
         if self.inbox is not None and self._thread is not None:
             self.inbox.put(None)
             if self._thread is not threading.current_thread():
-                self._thread.join(5)
+                self._thread.join(LONGEST_CLOSE)
 
     def _run(self, inbox: SimpleQueue[Call | None]) -> None:
         while (call := inbox.get()) is not None:

@@ -11,7 +11,7 @@ import threading
 from collections.abc import Sequence
 from typing import Any
 
-from sleec_runtime.ros.transport import Fields, Receive, Topic
+from sleec_runtime.ros.transport import LONGEST_CLOSE, Fields, Receive, Topic
 from sleec_runtime.ros.transport_errors import TransportUnavailable, UnknownMessageType, WrongFields
 
 _LOG = logging.getLogger("sleec_runtime.ros")
@@ -66,7 +66,7 @@ class RclpyTransport:
         self._closed = True
         self._context.try_shutdown()
         if self._thread is not threading.current_thread():
-            self._thread.join()
+            self._thread.join(LONGEST_CLOSE)
 
     @property
     def closed(self) -> bool:

@@ -14,6 +14,9 @@ EMPTY = "std_msgs/msg/Empty"
 Fields = Mapping[str, object]
 """The fields of a message: plain values (str, bool, int, float, list, mapping)."""
 
+LONGEST_CLOSE = 5.0
+"""Seconds for which `close` waits for a call of `receive` in another thread."""
+
 DEEPEST = 2**31 - 1
 """The highest `depth` of a topic."""
 
@@ -76,5 +79,5 @@ class Transport(Protocol):
         ...
 
     def close(self) -> None:
-        """Ends all subscriptions. Waits up to 5 seconds for a call of `receive` in another thread."""
+        """Ends all subscriptions. Waits up to `LONGEST_CLOSE` for a call of `receive` in another thread."""
         ...

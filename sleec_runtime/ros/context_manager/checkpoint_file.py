@@ -38,9 +38,10 @@ class CheckpointFile:
             return Checkpoint.from_json(read_file(self.path).decode())
         except FileNotFoundError:
             return None
-        except (OSError, UnicodeDecodeError, MalformedMessage) as error:
+        except (OSError, ValueError, MalformedMessage) as error:
+            reason = getattr(error, "strerror", None) or error
             raise SnapshotRefused(
-                f"the checkpoint {self.path} cannot be read: {error}", "move the file away to start without it"
+                f"the checkpoint {self.path} cannot be read: {reason}", "move the file away to start without it"
             ) from None
 
     def write(self, take: Callable[[], Checkpoint]) -> None:

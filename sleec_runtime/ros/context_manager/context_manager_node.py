@@ -74,6 +74,8 @@ class ContextManagerNode:
             self.layer_updater.publish_all()
             self.layer_updater.heartbeat()
             node.every(heartbeat, self._beat)
+        # A file that cannot be written is a problem from the start.
+        self._save()
 
     def subscribe(self, topic: str | Topic, trigger: str) -> None:
         """Takes each message on `topic` as an occurrence of `trigger`, of a rule with times. Tasks subscribe to other

@@ -25,7 +25,7 @@ from sleec_runtime.ros.dds.environment import (
 from sleec_runtime.ros.dds.message_types import Message
 from sleec_runtime.ros.dds.settling import SettlingMessages
 from sleec_runtime.ros.dds.type_store import TypeStore
-from sleec_runtime.ros.transport import Fields, Receive, Topic
+from sleec_runtime.ros.transport import LONGEST_CLOSE, Fields, Receive, Topic
 from sleec_runtime.ros.transport_errors import MalformedMessage, TransportUnavailable
 
 if TYPE_CHECKING:
@@ -121,7 +121,7 @@ class DdsTransport:
         atexit.unregister(self.close)
         participant.wake()
         if self._thread is not threading.current_thread():
-            self._thread.join()
+            self._thread.join(LONGEST_CLOSE)
         self._subscriptions = ()
 
     def after_fork(self) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import threading
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -114,6 +115,11 @@ def test_a_wrong_time_to_settle_is_refused(
         (["task", "sleec_runtime.ros:TaskManagerNode"], "missing a required argument: 'sleec'"),
         (["mission", "json:JSONDecoder"], "too many positional arguments"),
         (["mission", ""], "Empty module name"),
+        (["mission", ".json:loads"], "'.json:loads' cannot be used"),
+        (["task", "builtins:str"], "'builtins:str' cannot be called with one argument"),
+        (["task", "builtins:id"], "'builtins:id' is not a node"),
+        (["context-manager", "rules.sleec", "--name", "a\udcff"], "name"),
+        (["context-manager", "rules.sleec", "--checkpoint", "."], "the checkpoint . cannot be read"),
     ],
 )
 def test_errors_are_one_line(
@@ -129,3 +135,34 @@ def test_unknown_options_are_a_usage_error(transport: InProcessTransport) -> Non
     with pytest.raises(SystemExit) as caught:
         main(["monitor", "rules.sleec", "--tol", "1"])
     assert caught.value.code == 2
+
+
+def test_a_problem_of_a_mission_is_one_line(
+    transport: InProcessTransport, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    Path("guide.py").write_text("def run(mission):\n    mission.start('Go', {'speed': float('nan')})\n")
+    monkeypatch.syspath_prepend(".")
+    assert run(["mission", "guide:run"], lambda: None) == 0
+    (line,) = [record.getMessage() for record in caplog.records if record.levelname == "ERROR"]
+    assert line.startswith("mission: the mission has ended: the message cannot be written as JSON")
+
+
+def test_a_checkpoint_that_cannot_be_written_is_reported_at_the_start(
+    transport: InProcessTransport, caplog: pytest.LogCaptureFixture
+) -> None:
+    assert run(["context-manager", "rules.sleec", "--checkpoint", "no/checkpoint.json"], lambda: None) == 0
+    assert "the checkpoint no/checkpoint.json cannot be written" in caplog.text
+
+
+@pytest.mark.parametrize(("pause", "code"), [(0.0, 0), (1.1, 130)])
+def test_another_signal_ends_code_that_does_not_return(
+    transport: InProcessTransport, monkeypatch: pytest.MonkeyPatch, pause: float, code: int
+) -> None:
+    def start(options: object, connect: object) -> InProcessTransport:
+        os.kill(os.getpid(), signal.SIGINT)
+        time.sleep(pause)
+        os.kill(os.getpid(), signal.SIGTERM)
+        return transport
+
+    monkeypatch.setattr(command_line, "_task", start)
+    assert main(["task", "the:code"]) == code

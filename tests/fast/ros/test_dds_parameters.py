@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Callable
 from decimal import Decimal
@@ -11,11 +12,12 @@ from typing import Any
 import pytest
 
 from sleec_runtime.errors import SleecError, WrongType
+from sleec_runtime.ros.dds import transport as dds_transport
 from sleec_runtime.ros.dds.transport import DdsTransport
 from sleec_runtime.ros.dds.type_store import LONGEST_ARRAY, TypeStore
 from sleec_runtime.ros.transport import Topic
 from sleec_runtime.ros.transport_errors import InvalidDefinition, TransportUnavailable
-from tests.support.dds import eventually, require_dds, unused_topic
+from tests.support.dds import PATIENCE, eventually, require_dds, unused_topic
 from tests.support.dds import transports as transports
 
 require_dds()
@@ -71,3 +73,21 @@ def test_a_type_that_no_message_can_have_is_refused(text: str) -> None:
 def test_other_definitions_are_refused(text: str) -> None:
     with pytest.raises(SleecError):
         TypeStore("jazzy", {"my_msgs/msg/Grip": text}).message("my_msgs/msg/Grip")
+
+
+def test_the_end_does_not_wait_for_code_that_does_not_return(
+    transports: Transports, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(dds_transport, "LONGEST_CLOSE", 0.1)
+    transport, topic, begun, end = transports(), Topic(unused_topic()), threading.Event(), threading.Event()
+
+    def receive(fields: object) -> None:
+        begun.set()
+        end.wait()
+
+    transport.subscribe(topic, receive)
+    transport.publisher(topic).publish({"data": "x"})
+    assert begun.wait(PATIENCE)
+    transport.close()
+    end.set()
+    assert eventually(lambda: not transport._thread.is_alive())
