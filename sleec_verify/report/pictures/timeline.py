@@ -12,7 +12,7 @@ from sleec_verify.report.timeline import in_words
 from sleec_verify.results.timeline import Due, Timeline
 from sleec_verify.wording.names import spoken
 from sleec_verify.wording.phrases import value_words
-from sleec_verify.wording.sentence import joined, sentence
+from sleec_verify.wording.sentence import sentence
 from sleec_verify.wording.times import duration
 from sleec_verify.wording.translation import Language, translated
 
@@ -28,7 +28,7 @@ def timeline_picture(timeline: Timeline, title: str, language: Language = "en", 
     Times are at equal distances, whatever the time between them.
     """
     picture = _Picture(timeline, title, language)
-    words = translated(joined("; ", in_words(timeline)), language)
+    words = "; ".join(translated(line, language).strip() for line in in_words(timeline))
     return document(translated(title, language), words, picture.width, picture.draw, name)
 
 
@@ -41,7 +41,8 @@ class _Picture:
         self._language = language
         self._dues = list(dict.fromkeys(due for moment in timeline.moments for due in moment.due))
         times = {moment.time for moment in timeline.moments}
-        times.update(time for due in self._dues for time in (due.start, due.end) if time is not None)
+        for due in self._dues:
+            times.update([due.start] if due.end is None or due.end < due.start else [due.start, due.end])
         self._times = sorted(times)[:_MOST_TIMES]
         self.width = max(640, _LEFT + _COLUMN * len(self._times) + 24)
 
@@ -102,11 +103,14 @@ class _Picture:
         left, right = self._x(due.start) - 7, float(self.width - 16)
         if due.end is not None and due.end in self._times:
             right = self._x(due.end) + 7
+        words = cut(due.rule, 30)
         group = drawing.group(self._words(_title(due)))
+        if due.end is not None and due.end < due.start:  # the window contains no instant
+            group.text(left + 14, y + _ROW / 2 + 4, words, "small")
+            return
         group.rectangle(left, y + 7, right, y + _ROW - 7, "prohibited" if due.negated else "met")
         if due.end is None:
             group.arrowhead(right + 8, y + _ROW / 2)
-        words = cut(due.rule, 30)
         if right - left > 7 * len(words) + 30:
             if due.negated:
                 group.rectangle(left + 10, y + 8, left + 18 + 6 * len(words), y + _ROW - 8, "page")

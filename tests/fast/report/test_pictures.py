@@ -150,6 +150,20 @@ def test_a_timeline_shows_events_and_windows() -> None:
     assert "prohibited" in kinds
 
 
+def test_a_window_without_an_instant_has_no_bar() -> None:
+    ruleset = parse("MEASURE w: integer\nASSUME w >= -3 AND w <= 5\nWHEN A THEN B WITHIN w minutes\n")
+    (result,) = run_checks(ruleset, ["conflict"])
+    (finding,) = result.findings
+    assert finding.timeline is not None
+    picture = timeline_picture(finding.timeline, finding.message)
+    assert all(float(bar.get("width", "0")) > 0 for bar in elements(picture, "rect"))
+    words = [text.text for text in elements(picture, "text")]
+    assert "rule_1" in words
+    assert "-3 minutes" not in words
+    (description,) = elements(picture, "desc")
+    assert "; rule `rule_1` requires" in (description.text or "")
+
+
 @pytest.mark.parametrize("name", ["rule-graph", "rule-flow", "rule-timeline"])
 def test_the_pictures_in_the_documentation_are_up_to_date(name: str) -> None:
     path = "rulesets/studies/dairy-farm.sleec"
