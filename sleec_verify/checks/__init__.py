@@ -36,6 +36,7 @@ from sleec_verify.query.question import is_possible
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.replay.situations import replay_finding
 from sleec_verify.results.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict
+from sleec_verify.wording.sentence import joined, sentence
 
 __all__ = ["CHECKS", "Check", "Checking", "FindingKind", "checks_for", "run_checks"]
 
@@ -243,7 +244,10 @@ def _verdict(
                 for finding in proposed:
                     if not replay_finding(index, finding):
                         unknown.append(
-                            f"the replay rejected a witness; this is a bug in sleec-verify: {finding.message}"
+                            sentence(
+                                "the replay rejected a witness; this is a bug in sleec-verify: {finding}",
+                                finding=finding.message,
+                            )
                         )
                         continue
                     if tell is not None and check.scope != "every domain":
@@ -258,7 +262,7 @@ def _verdict(
                     if domain:
                         found[key] = replace(seen, domains=(*seen.domains, domain))
         except Undecided as error:
-            unknown.append(str(error))
+            unknown.append(error.message)
         except Enough as error:
             cut = str(error)
     findings = tuple(
@@ -268,7 +272,7 @@ def _verdict(
     )
     findings = of_statements(findings, ruleset)
     if unknown:
-        return Unknown("; ".join(dict.fromkeys(unknown)), findings), None
+        return Unknown(joined("; ", dict.fromkeys(unknown)), findings), None
     return (Refuted(findings) if findings else Proved()), cut
 
 

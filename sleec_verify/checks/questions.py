@@ -9,7 +9,8 @@ from sleec_verify.encoding.budget import Undecided, begin, share
 from sleec_verify.query.rule_shape import shape_at
 from sleec_verify.results.finding import Finding
 from sleec_verify.traces.partition import partition_of
-from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.phrases import first_of, quoted
+from sleec_verify.wording.sentence import joined, sentence
 
 if TYPE_CHECKING:
     from sleec_verify.query.ruleset_index import RulesetIndex
@@ -32,9 +33,17 @@ def ask_each(asked: Iterable[tuple[str, _Asked]], question: Callable[[_Asked], I
             with share(1 if is_last else 1 / 2):
                 yield from question(one)
         except Undecided as error:
-            why.setdefault(str(error), []).append(name)
+            why.setdefault(error.message, []).append(name)
     if why:
-        raise Undecided("; ".join(f"{_named(names)}: {reason}" for reason, names in why.items()))
+        raise Undecided(
+            joined(
+                "; ",
+                (
+                    sentence("{rules}: {why}", rules=first_of([*dict.fromkeys(names)]), why=reason)
+                    for reason, names in why.items()
+                ),
+            )
+        )
 
 
 def ask_each_shape(
@@ -78,19 +87,14 @@ def ask_both_parts(
     try:
         yield from situations(parts.situations)
     except Undecided as error:
-        why.append(str(error))
+        why.append(error.message)
     if parts.traces is not None:
         try:
             yield from traces(parts.traces)
         except Undecided as error:
-            why.append(str(error))
+            why.append(error.message)
     if why:
-        raise Undecided("; ".join(why))
-
-
-def _named(names: list[str]) -> str:
-    names = list(dict.fromkeys(names))
-    return ", ".join(names[:5]) + (f" and {len(names) - 5:,} more" if len(names) > 5 else "")
+        raise Undecided(joined("; ", why))
 
 
 def _with_last(asked: Iterable[_Asked]) -> Iterator[tuple[_Asked, bool]]:

@@ -10,8 +10,8 @@ from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import Finding, Witness
 from sleec_verify.traces.index import trace_index_of
-from sleec_verify.wording.phrases import listed, quoted
-from sleec_verify.wording.sentence import plural, sentence
+from sleec_verify.wording.phrases import first_of, listed, quoted
+from sleec_verify.wording.sentence import joined, plural, sentence
 
 if TYPE_CHECKING:
     from sleec_verify.games.realizability import Loss
@@ -32,13 +32,13 @@ def _losses(index: RulesetIndex, steps: int) -> Iterator[Finding]:
         try:
             loss = question()
         except Undecided as error:
-            named = [quoted(rule.label) for rule in part]
-            unknown[f"{', '.join(named[:5])}{f' and {len(named) - 5:,} more' if named[5:] else ''}: {error}"] = None
+            named = first_of([quoted(rule.label) for rule in part])
+            unknown[sentence("{rules}: {why}", rules=named, why=error.message)] = None
             continue
         if loss is not None:
             yield _finding(loss)
     if unknown:
-        raise Undecided("; ".join(unknown))
+        raise Undecided(joined("; ", unknown))
 
 
 def _finding(loss: Loss) -> Finding:

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from unicodedata import decomposition, name, normalize
 
 from sleec_verify.checks.unicode_confusables import LOOKALIKES
-from sleec_verify.wording.sentence import joined, sentence
+from sleec_verify.wording.phrases import first_of
 
 _INVISIBLE = "\u034f\u115f\u1160\u3164\uffa0"
 """The invisible characters that a name may contain."""
@@ -25,7 +25,6 @@ _TOGETHER = (
     frozenset({"LATIN", "CJK", "HANGUL"}),
 )
 """Scripts that one word may mix: those of Japanese, Chinese and Korean, each with Latin."""
-_MOST = 5
 
 
 def skeleton(word: str) -> str:
@@ -74,7 +73,4 @@ def _script(letter: str) -> str:
 def described(characters: Iterable[str]) -> str:
     """``U+041E CYRILLIC CAPITAL LETTER O``, each once; only the first of many."""
     found = [f"U+{ord(c):04X} {name(c, '')}".rstrip() for c in dict.fromkeys(characters)]
-    first = joined(", ", found[:_MOST])
-    if len(found) <= _MOST:
-        return first
-    return sentence("{names} and {number} more", names=first, number=len(found) - _MOST)
+    return first_of(found)

@@ -12,6 +12,7 @@ from typing import Any
 from sleec_runtime.model import Calculation, Rational
 from sleec_verify.encoding.budget import Budget, Undecided, current
 from sleec_verify.encoding.calculations import named
+from sleec_verify.wording.sentence import sentence
 
 RESOURCES = 1_000_000
 """The resource limit of z3 for one question: about a second, and the same on every machine."""
@@ -41,7 +42,10 @@ def unproved(calculations: Iterable[Calculation]) -> NotCalculated:
     """The error for an answer that must be proved and rests on what z3 says about these calculations."""
     calculations = list(calculations)
     return NotCalculated(
-        f"the answer depends on the result of z3 for {named(calculations)}, which a certificate cannot prove",
+        sentence(
+            "the answer depends on the result of z3 for {calculations}, which a certificate cannot prove",
+            calculations=named(calculations),
+        ),
         [one.line for one in calculations],
     )
 
@@ -65,22 +69,26 @@ def values_for(
     assumed = (
         f"(declare-const a{number} Bool)(assert (=> a{number} {formula}))" for number, formula in enumerate(formulas)
     )
+    calculations = list(dict.fromkeys(one for one, *_ in compared))
+    lines = [one.line for one in calculations]
     try:
         budget = current()
         found = answer("\n".join((*sorts, *assumed)), len(formulas), None if budget is None else budget.whole)
     except ImportError:
-        raise _unknown(compared, "the values of {} need z3, which is not installed (" + INSTALL + ")") from None
+        why = sentence(
+            "the values of {calculations} need z3, which is not installed ({install})",
+            calculations=named(calculations),
+            install=INSTALL,
+        )
+        raise NotCalculated(why, lines) from None
     if found is None:
-        raise _unknown(compared, "z3 could not decide the values of {}")
+        raise NotCalculated(
+            sentence("z3 could not decide the values of {calculations}", calculations=named(calculations)), lines
+        )
     if isinstance(found, dict):
         return {name: found.get(called, 0) for name, called in names.items()}
     literals = [*(cut[3] for cut in cuts), *(order[2] for order in orders), *(one[3] for one in compared)]
     return [literals[number] for number in found]
-
-
-def _unknown(compared: Iterable[Compared], message: str) -> NotCalculated:
-    calculations = list(dict.fromkeys(one for one, *_ in compared))
-    return NotCalculated(message.format(named(calculations)), [one.line for one in calculations])
 
 
 @lru_cache(maxsize=10_000)

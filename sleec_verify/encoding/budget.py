@@ -18,6 +18,7 @@ from time import monotonic
 from typing import NoReturn
 
 from sleec_runtime.errors import SleecError
+from sleec_verify.wording.sentence import plural, sentence
 
 FILE = 3_500_000
 """Steps for one ruleset. Rulesets that people write need a thousandth of it."""
@@ -121,7 +122,13 @@ def limited(seconds: float, interrupt: Callable[[], None] | None = None) -> Iter
 
     A file is always read completely.
     """
-    reason, deadline = f"the timeout of {seconds:g} seconds has passed", monotonic() + seconds
+    reason = plural(
+        1 if seconds == 1 else 2,
+        "the timeout of 1 second has passed",
+        "the timeout of {seconds} seconds has passed",
+        seconds=f"{seconds:g}",
+    )
+    deadline = monotonic() + seconds
     with _using(
         Budget(reason, deadline=deadline)
         if interrupt is None
@@ -157,7 +164,7 @@ def for_file(characters: int, interrupt: Callable[[], None] | None = None) -> It
         yield
 
 
-_FILE_SPENT = "the limit of steps for one file is reached; use --timeout SECONDS to allow more"
+_FILE_SPENT = sentence("the limit of steps for one file is reached; use --timeout SECONDS to allow more")
 
 
 def begin() -> None:

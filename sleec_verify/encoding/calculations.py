@@ -6,6 +6,8 @@ from collections.abc import Iterable, Iterator
 
 from sleec_runtime.errors import Unsayable, UnsupportedCalculations
 from sleec_runtime.model import Assume, Calculation, Comparison, Formula, Never, Ruleset, formulas_of, leaves
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import joined, sentence
 
 
 def calculations_in(formula: Formula) -> Iterator[Calculation]:
@@ -38,7 +40,15 @@ def calculated_lengths(ruleset: Ruleset) -> list[Calculation]:
 
 def named(found: Iterable[Calculation]) -> str:
     """Calculations for messages, each with its line."""
-    return ", ".join(f"`{one}`" + (f" in line {one.line}" if one.line else "") for one in found)
+    return joined(
+        ", ",
+        (
+            sentence("{calculation} in line {line}", calculation=quoted(str(one)), line=one.line)
+            if one.line
+            else quoted(str(one))
+            for one in found
+        ),
+    )
 
 
 def unsupported(found: Iterable[Calculation], who: str) -> UnsupportedCalculations:

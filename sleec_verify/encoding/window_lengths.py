@@ -29,6 +29,8 @@ from sleec_runtime.model import (
 from sleec_verify.encoding.measure_ranges import MeasureRanges
 from sleec_verify.encoding.relations import Relation
 from sleec_verify.encoding.solver import Undecided
+from sleec_verify.wording.phrases import grouped, quoted
+from sleec_verify.wording.sentence import sentence
 
 MOST_VALUES = 1_000
 """The maximal number of values of the measures of one response."""
@@ -62,7 +64,12 @@ class WindowLengths:
         count = prod(len(self._values(measure, text)) for measure in measures)
         if count > MOST_VALUES:
             raise Undecided(
-                f"the lengths of `{text}` have {count:,} combinations of values, more than the limit of {MOST_VALUES:,}"
+                sentence(
+                    "the lengths of {window} have {number} combinations of values, more than the limit of {limit}",
+                    window=quoted(text),
+                    number=grouped(count),
+                    limit=grouped(MOST_VALUES),
+                )
             )
         first, *others = self._values(name, text)
         return Clause(
@@ -95,15 +102,26 @@ class WindowLengths:
         least, greatest = self._ranges.bounds(measure)
         if least is None or greatest is None:
             raise Undecided(
-                f"nothing bounds `{measure}`, which gives the length of `{text}`; declare a range, for example: "
-                f"{self._example(measure)}"
+                sentence(
+                    "nothing bounds {measure}, which gives the length of {window}; declare a range, for example: "
+                    "{example}",
+                    measure=quoted(measure),
+                    window=quoted(text),
+                    example=self._example(measure),
+                )
             )
         # Without any value, no instant is possible, and no window matters.
         found = range(least, max(least, greatest) + 1)
         if len(found) > MOST_VALUES:
             raise Undecided(
-                f"`{measure}`, which gives the length of `{text}`, has {len(found):,} values, more than the limit of "
-                f"{MOST_VALUES:,}; use a larger unit"
+                sentence(
+                    "{measure}, which gives the length of {window}, has {number} values, more than the limit of "
+                    "{limit}; use a larger unit",
+                    measure=quoted(measure),
+                    window=quoted(text),
+                    number=grouped(len(found)),
+                    limit=grouped(MOST_VALUES),
+                )
             )
         return found
 

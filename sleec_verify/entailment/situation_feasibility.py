@@ -9,6 +9,7 @@ from sleec_runtime.model import Assume, Context, Formula, Measure, Value
 from sleec_verify.encoding.cnf import Encoder
 from sleec_verify.encoding.solver import MiniSat, Undecided
 from sleec_verify.query.names import names_in
+from sleec_verify.wording.sentence import sentence
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Relation
@@ -110,7 +111,7 @@ class _Asked:
         while True:
             answer = self._solver.solve([*self._given, *literals])
             if answer is None:
-                raise Undecided("the solver reached its limit of conflicts")
+                raise Undecided(sentence("the solver reached its limit of conflicts"))
             refused = self._encoder.measures.refused(self._solver.holds) if answer else None
             if refused is None:
                 return answer

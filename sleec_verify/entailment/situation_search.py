@@ -18,6 +18,7 @@ from sleec_verify.query.prime_implicates import inconsistent_sets_of
 from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
 from sleec_verify.query.witness import smallest_situation
+from sleec_verify.wording.sentence import sentence
 
 Clauses = Sequence[tuple[str, int | None]]
 """Rules with the number of the clause that decides; None for any clause."""
@@ -32,7 +33,7 @@ def with_obligation(index: RulesetIndex, name: str) -> Context | None:
             answer = entail(index.ruleset, context)
             if name in answer.obligations and not answer.broken_assumptions:
                 return _confirmed(index, context, [(label, place.number)])
-            doubt = Undecided("relations of the rules may exclude the situation that the solver found")
+            doubt = Undecided(sentence("relations of the rules may exclude the situation that the solver found"))
     if doubt is not None:
         raise doubt
     return None
@@ -105,7 +106,7 @@ def _smallest(index: RulesetIndex, formula: Formula, clauses: Clauses) -> Contex
 def _confirmed(index: RulesetIndex, context: Context, clauses: Clauses) -> Context:
     """The situation, if the evaluator confirms it and no relation excludes it. Raises `Undecided` otherwise."""
     if not applies(index.ruleset, context, clauses):
-        raise Undecided("the evaluator rejected the situation; this is a bug in sleec-verify")
+        raise Undecided(sentence("the evaluator rejected the situation; this is a bug in sleec-verify"))
     if index.ruleset.is_timed and entail(index.ruleset, context).broken_assumptions:
-        raise Undecided("relations of the rules may exclude the situation that the solver found")
+        raise Undecided(sentence("relations of the rules may exclude the situation that the solver found"))
     return context

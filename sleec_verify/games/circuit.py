@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from sleec_verify.encoding.solver import Undecided
+from sleec_verify.wording.phrases import grouped
+from sleec_verify.wording.sentence import sentence
 
 TRUE = 1
 FALSE = -1
@@ -48,7 +50,7 @@ class Circuit:
         node = self._known.get((a, b))
         if node is None:
             if len(self._parts) > MOST_NODES:
-                raise Undecided(f"the formula would need more than {MOST_NODES:,} nodes")
+                raise Undecided(sentence("the formula would need more than {limit} nodes", limit=grouped(MOST_NODES)))
             self._parts.append((a, b))
             node = self._known[a, b] = len(self._parts) - 1
         return node

@@ -13,6 +13,8 @@ from dataclasses import dataclass
 
 from sleec_verify.encoding.solver import MiniSat, Undecided
 from sleec_verify.games.circuit import Circuit
+from sleec_verify.wording.phrases import grouped
+from sleec_verify.wording.sentence import sentence
 
 MOST_MOVES = 20_000
 """The maximal number of moves of both players that are tried for a question."""
@@ -41,7 +43,7 @@ class _Budget:
     def spend(self) -> None:
         self.left -= 1
         if self.left < 0:
-            raise Undecided(f"no answer after {MOST_MOVES:,} moves")
+            raise Undecided(sentence("no answer after {number} moves", number=grouped(MOST_MOVES)))
 
 
 @dataclass(frozen=True)
@@ -148,7 +150,7 @@ class _Goals:
         """Values of some variables that satisfy all goals with the given values of others, or None."""
         found = self._solver.solve([variable * value for variable, value in settled.items()])
         if found is None:
-            raise Undecided("the solver reached its limit of conflicts")
+            raise Undecided(sentence("the solver reached its limit of conflicts"))
         if not found:
             return None
         return {variable: 1 if self._solver.holds(variable) else -1 for variable in variables}

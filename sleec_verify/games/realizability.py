@@ -21,6 +21,7 @@ from sleec_verify.results.strategy import Act, Branch, Strategy
 from sleec_verify.traces.demands import Occurs
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.induction import impossible_events
+from sleec_verify.wording.sentence import plural
 
 MOST_PLANNED = 4
 """The maximal number of instants of a plan."""
@@ -200,7 +201,13 @@ def _lost(contest: _Contest, steps: int) -> tuple[_Contest, int] | None:
             return _fewest(few, steps, enough), enough
     if most == bound:
         return contest, most
-    raise Undecided(f"no strategy of the robot with plans of up to {most} instants")
+    raise Undecided(
+        plural(
+            most,
+            "no strategy of the robot with plans of {number} instant",
+            "no strategy of the robot with plans of up to {number} instants",
+        )
+    )
 
 
 def _wins(play: Play) -> bool:

@@ -12,6 +12,8 @@ from collections.abc import Iterable
 from math import gcd
 
 from sleec_verify.encoding.solver import Undecided
+from sleec_verify.wording.phrases import grouped
+from sleec_verify.wording.sentence import sentence
 
 MOST_SLOTS = 480
 """The maximal number of distinct times of a question."""
@@ -42,8 +44,14 @@ class TimeGrid:
         self.times = [time + unit * part // fine for time in self.wholes for part in range(fine)]
         if len(self.times) > MOST_SLOTS:
             raise Undecided(
-                f"windows with lengths from {found[0]:,} to {found[-1]:,} seconds have more than {MOST_SLOTS} distinct "
-                f"times with up to {instants} instants"
+                sentence(
+                    "windows with lengths from {shortest} to {longest} seconds have more than {limit} distinct times "
+                    "with up to {instants} instants",
+                    shortest=grouped(found[0]),
+                    longest=grouped(found[-1]),
+                    limit=MOST_SLOTS,
+                    instants=instants,
+                )
             )
 
     def __len__(self) -> int:

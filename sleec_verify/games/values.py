@@ -30,6 +30,7 @@ from sleec_runtime.model import (
 from sleec_verify.encoding.calculations import named
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.games.circuit import FALSE, TRUE, Circuit
+from sleec_verify.wording.sentence import sentence
 
 _FLIPPED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "=", "!=": "!="}
 
@@ -82,11 +83,11 @@ def sides(comparison: Comparison) -> tuple[str, str, Rational]:
     """
     left, operator, right = comparison.left, str(comparison.operator), comparison.right
     if isinstance(left, Calculation):
-        raise Undecided(f"games with calculations are not supported: {named([left])}")
+        raise Undecided(sentence("games with calculations are not supported: {calculation}", calculation=named([left])))
     if not isinstance(left, MeasureRef):
         left, right, operator = right, left, _FLIPPED[operator]
     if isinstance(right, MeasureRef):
-        raise Undecided("games with comparisons of two measures are not supported")
+        raise Undecided(sentence("games with comparisons of two measures are not supported"))
     assert isinstance(left, MeasureRef), "one side of a comparison is a measure"
     assert isinstance(right, (Number, ScaleValue)), "a calculation stands on the left"
     return left.name, operator, right.value if isinstance(right, Number) else right.rank

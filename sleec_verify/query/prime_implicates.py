@@ -13,6 +13,7 @@ from sleec_verify.encoding.budget import Undecided, spend
 from sleec_verify.encoding.union_find import UnionFind
 from sleec_verify.query.inconsistent_sets import Constraint, Exclusion, InconsistentSet, InconsistentSets, opposite
 from sleec_verify.query.ruleset_index import RulesetIndex
+from sleec_verify.wording.sentence import sentence
 
 LIMIT = 2_000
 """The maximal number of cases of a NEVER, and of sets from a group of connected constraints."""
@@ -162,7 +163,7 @@ def _disjuncts(formula: Formula, value: bool) -> list[_Term]:
         spend(len(terms) * len(part))
         terms = list({(a | c, b | d): None for a, b in terms for c, d in part})
         if len(terms) > LIMIT:
-            raise TooEntangled("a NEVER expands to too many cases")
+            raise TooEntangled(sentence("a NEVER expands to too many cases"))
     return terms
 
 
@@ -209,11 +210,11 @@ def _eliminated(terms: list[InconsistentSet], obliged: Collection[Obligation]) -
                     origins = sorted({*one.origins, *other.origins}, key=lambda origin: origin.span)
                     fresh.append(InconsistentSet(literals, one.labels | other.labels, tuple(origins)))
             if steps > STEPS:
-                raise TooEntangled("the constraints exclude too many combinations")
+                raise TooEntangled(sentence("the constraints exclude too many combinations"))
         idle = {literal for literal in (done, undone) if literal not in obliged}
         kept = [clash for clash in found if idle.isdisjoint(clash.literals)]
         if fresh or len(kept) < len(found):
             found = _minimal(kept + fresh)
         if fresh and len(found) > LIMIT:
-            raise TooEntangled("the constraints exclude too many combinations")
+            raise TooEntangled(sentence("the constraints exclude too many combinations"))
     return found

@@ -11,6 +11,7 @@ from sleec_verify.encoding.cnf import Encoder
 from sleec_verify.encoding.solver import MiniSat, Solver, Undecided
 from sleec_verify.query.names import Name
 from sleec_verify.query.ruleset_index import RulesetIndex
+from sleec_verify.wording.sentence import sentence
 
 
 class Question:
@@ -87,7 +88,7 @@ class Question:
         while True:
             answer = self._solver.solve(literals)
             if answer is None:
-                raise Undecided("the solver reached its limit of conflicts")
+                raise Undecided(sentence("the solver reached its limit of conflicts"))
             recorder, clauses = self.index.recorder, self.encoder.clauses
             if not answer:
                 if recorder is not None:

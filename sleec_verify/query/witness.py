@@ -18,6 +18,7 @@ from sleec_verify.query.names import Name, names_in
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.query.unit_propagation import Impossible, Literals, propagate_units
 from sleec_verify.results.finding import Witness
+from sleec_verify.wording.sentence import sentence
 
 
 def smallest_situation(index: RulesetIndex, formula: Formula, valued: Iterable[str] = ()) -> Witness | None:
@@ -161,7 +162,7 @@ class _Rails:
         while True:
             answer = solver.solve()
             if answer is None:
-                raise Undecided("the solver reached its limit in the search for a smallest situation")
+                raise Undecided(sentence("the solver reached its limit in the search for a smallest situation"))
             if not answer:
                 return None
             values = self.encoder.measures.decode(solver.holds)

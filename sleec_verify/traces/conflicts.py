@@ -29,6 +29,7 @@ from sleec_verify.traces.trace import TraceInstant
 from sleec_verify.traces.used_templates import PART, used_templates
 from sleec_verify.traces.witness import needed_relations, needed_values
 from sleec_verify.wording.phrases import listed, quoted
+from sleec_verify.wording.sentence import sentence
 
 MOST_UNDECIDED = 4
 """The number of undecided situations after which the search stops."""
@@ -104,7 +105,12 @@ class ConflictSearch:
         """
         named = sorted({event for rule in self._index.ruleset.rules for event in named_atoms(rule)})
         if named:
-            raise Undecided(f"a condition names `{named[0]}`, which is also a response; this is not supported")
+            raise Undecided(
+                sentence(
+                    "a condition names {event}, which is also a response; this is not supported",
+                    event=quoted(named[0]),
+                )
+            )
         try:
             while self._refinement.propose():
                 self._examine()

@@ -18,6 +18,8 @@ from sleec_runtime.model import Clause, Length, Obligation, Rational, Window, in
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.encoding.trace_scope import Untimed
 from sleec_verify.encoding.window_lengths import WindowLengths
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import sentence
 
 
 class Occurs(NamedTuple):
@@ -115,7 +117,12 @@ class Responses:
         parts = [itself]
         if timing.otherwise is not None:
             if end is not None and end < 0:
-                raise Undecided(f"the length of a window of `{obligation.name}` can be negative; exclude such values")
+                raise Undecided(
+                    sentence(
+                        "the length of a window of {event} can be negative; exclude such values",
+                        event=quoted(obligation.name),
+                    )
+                )
             closed = after + end if timing.window is not None and end is not None else after
             parts.append(self.of_clause(timing.otherwise, chain, kept, closed))
         if timing.instead is not None:
@@ -228,7 +235,12 @@ def seconds(length: Length) -> Rational:
     """A length of time in seconds. Raises `Undecided` if it depends on measures."""
     value = length.seconds
     if value is None:
-        raise Undecided(f"nothing bounds a measure that gives the duration `{length}`; declare a range of the measure")
+        raise Undecided(
+            sentence(
+                "nothing bounds a measure that gives the duration {duration}; declare a range of the measure",
+                duration=quoted(str(length)),
+            )
+        )
     return value
 
 

@@ -14,6 +14,7 @@ from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.pending_demands import most_prohibitions
 from sleec_verify.traces.situations import Fact, Situations
 from sleec_verify.traces.templates import Template, templates_of
+from sleec_verify.wording.sentence import plural
 
 MOST_COPIES = 8
 """The maximal number of further slots for each response that needs several, in addition to those of templates.
@@ -67,7 +68,13 @@ class Refinement:
             if -s.more not in s.core:
                 return self._none_left()
             if self._copies >= copies:
-                raise Undecided(f"no conflict found with {self._copies} more pending triggers of each response")
+                raise Undecided(
+                    plural(
+                        self._copies,
+                        "no conflict found with {number} more pending trigger of each response",
+                        "no conflict found with {number} more pending triggers of each response",
+                    )
+                )
             self._copies += 1
             s.add_copies(1)
         return True
@@ -94,7 +101,9 @@ class Refinement:
                 (self._lift if self._lifted else self._add)(template)
                 self._origins[template] = tuple(facts)
                 return
-        raise Undecided(f"no answer after {len(known)} continuations")
+        raise Undecided(
+            plural(len(known), "no answer after {number} continuation", "no answer after {number} continuations")
+        )
 
     def _add(self, template: Template) -> None:
         self._shared[template] = self._defeat.add(template, self._slots)

@@ -21,6 +21,7 @@ from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.instant import Instant, SharedClauses
 from sleec_verify.traces.pending_demands import Pending, Slot, alternatives, pending_of
 from sleec_verify.traces.relations import relation_key
+from sleec_verify.wording.sentence import sentence
 
 Fact = tuple[object, ...]
 """A literal of a situation by its meaning, and True or False: ``("rule", label)``, ``("input", event)``,
@@ -260,7 +261,7 @@ class Situations:
             recorder = self.index.recorder
             answer = self._solver.solve(assumed)
             if answer is None:
-                raise Undecided("the solver reached its limit of conflicts")
+                raise Undecided(sentence("the solver reached its limit of conflicts"))
             if not answer:
                 self.core = set(self._solver.core())
                 return False

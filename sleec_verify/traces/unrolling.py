@@ -23,6 +23,7 @@ from sleec_verify.traces.difference import Differences
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.instant import Instant, SharedClauses
 from sleec_verify.traces.trace import TraceInstant
+from sleec_verify.wording.sentence import plural, sentence
 
 MOST = 30
 """The maximal number of instants that are added. Published rulesets need three."""
@@ -205,7 +206,9 @@ class Unrolling(ABC):
             self.add([-rest, need.witness(self.instant())])
 
     def _given_up(self) -> Undecided:
-        return Undecided(f"no answer with {len(self.instants)} instants")
+        return Undecided(
+            plural(len(self.instants), "no answer with {number} instant", "no answer with {number} instants")
+        )
 
     def _solve(self, required: Sequence[int], counting: Collection[str] | None, closed: bool) -> bool:
         """Solve with the rules of all events that occur in the model, and with consistent times. `closed`: without
@@ -218,7 +221,7 @@ class Unrolling(ABC):
             assumed = [*required, *(self._in_force[key] for key in keys), *here]
             answer = self._solver.solve(assumed)
             if answer is None:
-                raise Undecided("the solver reached its limit of conflicts")
+                raise Undecided(sentence("the solver reached its limit of conflicts"))
             if not answer:
                 self._core = set(self._solver.core())
                 return False

@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     from sleec_runtime.errors import SleecError
     from sleec_runtime.model import Clause, Context, Obligation, Rule, Value
 
+_MOST_NAMES = 5
+"""The most names in a list that is cut."""
 _LONGEST_CONDITION = 80
 """The most characters of a condition in the name of an exception."""
 
@@ -33,6 +35,14 @@ def listed(names: Iterable[str]) -> str:
     """``a``, ``a and b``, ``a, b and c``."""
     *most, last = names
     return sentence("{names} and {last}", names=joined(", ", most), last=last) if most else last
+
+
+def first_of(names: Sequence[str]) -> str:
+    """``a, b``; of more than five names, the first five: ``a, b, c, d, e and 2 more``"""
+    first = joined(", ", names[:_MOST_NAMES])
+    if len(names) <= _MOST_NAMES:
+        return first
+    return sentence("{names} and {number} more", names=first, number=len(names) - _MOST_NAMES)
 
 
 def counted(number: int, noun: str) -> str:

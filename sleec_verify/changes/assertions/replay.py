@@ -11,6 +11,7 @@ from sleec_verify.changes.assertions.assertion import Assertion
 from sleec_verify.changes.compare import DecidingClause
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.results.finding import Witness
+from sleec_verify.wording.sentence import sentence
 
 
 def replay(
@@ -27,7 +28,7 @@ def replay(
     due = [any(is_of(o, literal) for one in found for o in one.obligations) for literal in assertion.literals]
     broken = all(due) if assertion.kind == "never" else not all(due)
     if not (broken and all(holds(formula, context, measures) for formula in (assertion.when, *given))):
-        raise Undecided("the replay rejected a situation; this is a bug in sleec-verify")
+        raise Undecided(sentence("the replay rejected a situation; this is a bug in sleec-verify"))
     return tuple(found)
 
 

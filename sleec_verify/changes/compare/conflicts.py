@@ -24,6 +24,7 @@ from sleec_verify.encoding.equation import disjunction
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.query.inconsistent_sets import InconsistentSet
 from sleec_verify.query.witness import smallest_situation
+from sleec_verify.wording.sentence import sentence
 
 MOST, MOST_PER_RULE = 2_000, 10
 """The maximal number of causes on each side: this number, plus more for each rule. Contradicting rules multiply."""
@@ -40,7 +41,7 @@ def conflict_changes(comparison: Comparison) -> Iterator[Union[ConflictChange, U
         try:
             yield from _on(comparison, which, "added" if way == "added" else "removed")
         except Undecided as error:
-            yield Undecidable("conflicts", str(error))
+            yield Undecidable(sentence("conflicts"), error.message)
 
 
 def _on(comparison: Comparison, which: SideName, way: Way) -> Iterator[Union[ConflictChange, Undecidable]]:
@@ -159,7 +160,7 @@ def _found(
         conflicting(comparison, one, context, said[one]) == (one == which) for one in SIDES
     )
     if not replayed:
-        raise Undecided("the replay rejected a situation; this is a bug in sleec-verify")
+        raise Undecided(sentence("the replay rejected a situation; this is a bug in sleec-verify"))
     return ConflictChange(
         way,
         tuple(sorted(clash.literals, key=str)),

@@ -28,6 +28,7 @@ from sleec_verify.encoding.budget import Undecided, for_file
 from sleec_verify.encoding.calculations import calculations, named
 from sleec_verify.encoding.trace_scope import Untimed, speaks_of_traces
 from sleec_verify.query.question import is_possible
+from sleec_verify.wording.sentence import sentence
 
 _Told = TypeVar("_Told", Change, ConflictChange, SituationChange, TimedConflictChange)
 _Any = Union[Change, ConflictChange, SituationChange, TimedConflictChange, Undecidable, str]
@@ -99,10 +100,10 @@ def _compared(comparison: Comparison, domain: str | None, over_time: bool) -> li
             if over_time:
                 found = _with_conflicts_over_time(found, TimedConflicts(comparison))
         elif all(is_possible(comparison.situations_of(which)) for which in comparison.sides):
-            why = "no situation is allowed by the assumptions of both versions"
-            found.append(Undecidable("the obligations", why))
+            why = sentence("no situation is allowed by the assumptions of both versions")
+            found.append(Undecidable(sentence("the obligations"), why))
     except Undecided as error:
-        found.append(Undecidable("the rest of the comparison", error.message))
+        found.append(Undecidable(sentence("the rest of the comparison"), error.message))
     if domain is None:
         return found
     return [one if isinstance(one, (Undecidable, str)) else one._replace(domains=(domain,)) for one in found]

@@ -22,6 +22,7 @@ from sleec_verify.changes.diagram.decision_diagram import FALSE, TooLarge
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.query.witness import smallest_situation
 from sleec_verify.results.finding import Witness
+from sleec_verify.wording.sentence import sentence
 
 
 class _Candidate(NamedTuple):
@@ -54,7 +55,7 @@ def changes(comparison: Comparison) -> Iterator[Found]:
         try:
             yield from _of_pair(comparison, pair, places)
         except Undecided as error:
-            yield Undecidable(label, str(error))
+            yield Undecidable(label, error.message)
 
 
 def _of_pair(comparison: Comparison, pair: RulePair, places: dict[SideName, int]) -> Iterator[Found]:
@@ -126,7 +127,7 @@ def _change(comparison: Comparison, pair: RulePair, group: _Group, witness: Witn
     context = witness.context()
     said = {which: deciding(comparison, which, context) for which in SIDES}
     if not shows_change(comparison, context, said, added, removed):
-        raise Undecided("the replay rejected a situation; this is a bug in sleec-verify")
+        raise Undecided(sentence("the replay rejected a situation; this is a bug in sleec-verify"))
     labels = [None if rule is None else rule.label for rule in pair]
     return Change(labels[0], labels[1], added, removed, witness, said["old"], said["new"], group.extent)
 

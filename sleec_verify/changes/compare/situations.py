@@ -15,6 +15,7 @@ from sleec_verify.changes.diagram.decision_diagram import FALSE, TooLarge
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.query.question import is_possible
 from sleec_verify.query.witness import smallest_situation
+from sleec_verify.wording.sentence import sentence
 
 
 def situation_changes(comparison: Comparison) -> Iterator[Union[SituationChange, Undecidable]]:
@@ -29,7 +30,7 @@ def situation_changes(comparison: Comparison) -> Iterator[Union[SituationChange,
                 try:
                     found = _allowed(comparison, other(mine), given, way)
                 except Undecided as error:
-                    yield Undecidable(given.words, str(error))
+                    yield Undecidable(given.words, error.message)
                 else:
                     yield from () if found is None else (found,)
     yield from _fractions(comparison)
@@ -44,7 +45,7 @@ def _allowed(comparison: Comparison, by: SideName, given: Assumption, way: Way) 
         return None
     context = witness.context()
     if not possible(comparison, by, context) or satisfies(comparison, other(by), given, context):
-        raise Undecided("the replay rejected a situation; this is a bug in sleec-verify")
+        raise Undecided(sentence("the replay rejected a situation; this is a bug in sleec-verify"))
     named = names_of_formulas([given.formula])
     assumed = [assumption.formula for assumption in index.assumptions_about(named)]
     try:

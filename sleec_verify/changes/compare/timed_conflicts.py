@@ -22,6 +22,7 @@ from sleec_verify.results.finding import Finding
 from sleec_verify.traces.event_conditions import named_events
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.wording.phrases import listed, quoted
+from sleec_verify.wording.sentence import sentence
 
 _Pairs = frozenset[tuple[str, Hashable]]
 """The rules of a conflict by their new labels, each with a clause."""
@@ -58,13 +59,15 @@ class TimedConflicts:
         try:
             for finding in conflicts_over_time(index, component):
                 if not replay_finding(index, finding):
-                    raise Undecided("the replay rejected a conflict; this is a bug in sleec-verify")
+                    raise Undecided(sentence("the replay rejected a conflict; this is a bug in sleec-verify"))
                 self._found[which][_pairs(self._comparison, which, finding, self._names)] = finding
         except Enough as error:
             self.limits.append(str(error))
         except Undecided as error:
             self._open[which].update(self._names.get(label, label) if which == "old" else label for label in labels)
-            self.undecided.append(Undecidable(f"conflicts of {listed(map(quoted, labels))}", str(error)))
+            self.undecided.append(
+                Undecidable(sentence("conflicts of {rules}", rules=listed(map(quoted, labels))), error.message)
+            )
         else:
             self._decided[which].update(labels)
 

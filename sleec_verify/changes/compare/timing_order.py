@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Obligation
 from sleec_verify.encoding.solver import Undecided
+from sleec_verify.wording.sentence import sentence
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Rational, Timing, Window
@@ -52,8 +53,8 @@ def incomparability(one: Obligation, other: Obligation) -> str:
         _demand(one, "at")
         _demand(other, "at")
     except Undecided:
-        return "nothing bounds a measure that gives the length of a window"
-    return "there are too many ways to meet it"
+        return sentence("nothing bounds a measure that gives the length of a window")
+    return sentence("there are too many ways to meet it")
 
 
 def _has_alternatives(obligation: Obligation) -> bool:
@@ -100,7 +101,7 @@ def _ways(demand: Demand) -> list[list[Occurs]]:
         for part in demand.parts:
             found = [[*way, *more] for way, more in product(found, _ways(part))]
             if len(found) > MOST_WAYS:
-                raise Undecided("too many ways")
+                raise Undecided(sentence("there are too many ways to meet it"))
         return found
     return [[demand]]
 

@@ -38,9 +38,12 @@ def _relation(found: Difference) -> str:
 
 def changes(compared: RulesetDifference) -> Iterator[str]:
     """Each change, and each comparison that is undecided."""
-    found = compared.difference
-    if found is None:
-        return
+    if compared.difference is not None:
+        for text in _changes(compared.difference):
+            yield sentence("{text}.", text=text)
+
+
+def _changes(found: Difference) -> Iterator[str]:
     for change in found.changes:
         yield _with_example(_change(change), change)
     for conflict in found.conflicts:

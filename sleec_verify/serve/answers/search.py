@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from sleec_runtime.model import Context
 from sleec_verify.encoding.budget import Undecided, for_file
+from sleec_verify.encoding.trace_scope import has_chains, speaks_of_traces
 from sleec_verify.entailment.situation_search import (
     with_clause,
     with_different_readings,
@@ -56,7 +57,7 @@ def _asked(index: RulesetIndex, question: Body) -> tuple[str, Context | None]:
         name = question.text("obligation")
         if name not in index.ruleset.obligations:
             raise BadRequest(f"no obligation is called {quoted(name)}")
-        return sentence("{name} is required without a contradiction", name=quoted(name)), with_obligation(index, name)
+        return _required(index, name), with_obligation(index, name)
     if kind == "together":
         labels = [_label(index, label) for label in question.texts("rules")]
         if not labels:
@@ -75,6 +76,14 @@ def _asked(index: RulesetIndex, question: Body) -> tuple[str, Context | None]:
             return sentence("the readings differ"), None
         return sentence("the readings of rule {rule} differ", rule=quoted(found[0])), found[1]
     raise BadRequest(f"no question is called {quoted(kind)}", "ask obligation, together, exception or readings")
+
+
+def _required(index: RulesetIndex, name: str) -> str:
+    if speaks_of_traces(index.ruleset) or has_chains(index.ruleset):
+        return sentence(
+            "{name} is required, and the responses that are due at once do not contradict each other", name=quoted(name)
+        )
+    return sentence("{name} is required without a contradiction", name=quoted(name))
 
 
 def _label(index: RulesetIndex, label: str) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sleec_runtime.errors import SleecError
+from sleec_runtime.errors import WrongType
 from sleec_runtime.model import Rule, Ruleset
 from sleec_verify.checks.relevant_rules import relation_in_words
 from sleec_verify.query.ruleset_index import RulesetIndex
@@ -33,8 +33,9 @@ def timeline(session: Session, body: Body) -> dict[str, Json]:
     trace = Trace(tuple(Instant(*moment) for moment in moments))
     try:
         broken = RUNTIME.violations_so_far(ruleset, trace, "at")
-    except SleecError as error:  # a measure that gives the length of a window has no value
-        return {"windows": [], "problems": [error.message]}
+    except WrongType as error:
+        problem = sentence("{measure} gives the length of a window, but has no value", measure=quoted(error.name))
+        return {"windows": [], "problems": [problem]}
     found = timeline_of(trace_index_of(RulesetIndex(ruleset)), moments, len(moments) - 1)
     problems: list[Json] = [_broken(ruleset, one.statement, one.time) for one in broken]
     return {"windows": [_window(due, found) for due in _owed(found)], "problems": problems}

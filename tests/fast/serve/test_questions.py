@@ -56,6 +56,22 @@ def test_an_obligation_that_is_always_forbidden_too(page: Page) -> None:
     )
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "RULE a WHEN Bell THEN Open WITHIN 1 minute\nRULE b WHEN Bell THEN NOT Open WITHIN 2 minutes\n",
+        "RULE a WHEN Bell THEN Open AND Greet\nRULE b WHEN Open THEN NOT Greet\n",
+    ],
+)
+def test_nothing_is_said_about_contradictions_over_time(page: Page, text: str) -> None:
+    """The rules contradict each other in every situation, but not at one instant without the chain."""
+    answer = page.post("search", text=text, question={"kind": "obligation", "obligation": "Open"})
+    assert answer["sentence"] == (
+        "When `Bell` occurs (and nothing else), `Open` is required, and the responses that are due at once do not "
+        "contradict each other. The switches show this situation."
+    )
+
+
 def test_unknown_stays_unknown(page: Page, monkeypatch: pytest.MonkeyPatch) -> None:
     def undecided(*_: object) -> None:
         raise Undecided("the solver reached its limit of conflicts")

@@ -53,7 +53,7 @@ def test_a_length_without_a_value_is_a_problem(page: Page) -> None:
     text = "MEASURE Limit: integer\nRULE a WHEN Bell THEN Open WITHIN Limit seconds\n"
     answer: Any = page.post("timeline", text=text, events=[event(0, "Bell")])
     assert answer["windows"] == []
-    assert "Limit" in answer["problems"][0]
+    assert answer["problems"] == ["`Limit` gives the length of a window, but has no value"]
     answer = page.post("timeline", text=text, events=[event(0, "Bell", Limit=4)])
     assert [one["to"] for one in answer["windows"]] == [4]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import json
 
 import pytest
@@ -13,6 +14,7 @@ from sleec_verify.wording.phrases import counted, grouped, listed
 from sleec_verify.wording.sentence import Sentence, plural, sentence
 from sleec_verify.wording.translation import LANGUAGES, Language, translated
 from tests.support.cli import Cli
+from tests.support.paths import ROOT
 from tests.support.templates import PLACEHOLDER, templates
 
 OTHERS = [language for language in LANGUAGES if language != "en"]
@@ -145,3 +147,15 @@ def test_diff_and_entail_answer_in_a_language(language: Language, words: tuple[s
     for command in (("diff", "old.sleec", "a.sleec"), ("entail", "a.sleec", "--when", "UserCalls")):
         english = cli(*command, "--format", "json").out
         assert cli(*command, "--format", "json", "--language", language).out == english
+
+
+@pytest.mark.parametrize("error", ["Undecided", "OutOfBudget", "TooEntangled", "NotCalculated", "TooLarge"])
+def test_every_reason_for_an_unknown_answer_can_be_translated(error: str) -> None:
+    """Where a reason is made, it is a sentence. Elsewhere it is passed on."""
+    places = []
+    for path in sorted((ROOT / "sleec_verify").rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == error:
+                places.append(node)
+                assert not isinstance(node.args[0], (ast.Constant, ast.JoinedStr)), f"{path}:{node.lineno}"
+    assert places
