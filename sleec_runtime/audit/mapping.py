@@ -8,6 +8,7 @@ from typing import Any
 
 from sleec_runtime.audit.message_field import NoSuchField
 from sleec_runtime.audit.observation import Entered, Executed, Observation, Occurred, RawMessage, Reported
+from sleec_runtime.audit.raw_value import raw_text
 from sleec_runtime.audit.source import GOAL_STATES, Source, Unsuitable
 from sleec_runtime.errors import MappingError
 from sleec_runtime.model import Rational, Value
@@ -112,7 +113,7 @@ class TopicMapping:
         assert source.path is not None
         goals = source.path.value(message.fields)
         if not isinstance(goals, (list, tuple)):
-            raise Unsuitable(f"`{source.path.text}` is not a list of goals; it is {represent(goals)}")
+            raise Unsuitable(f"`{source.path.text}` is not a list of goals; it is {raw_text(goals)}")
         is_known = number in self._goals or not self.late
         before = self._goals.get(number, set())
         now = set()
@@ -121,6 +122,6 @@ class TopicMapping:
                 if goal["status"] in GOAL_STATES[source.goal]:
                     now.add(repr(list(goal["goal_info"]["goal_id"]["uuid"])))
             except (KeyError, TypeError):
-                raise Unsuitable(f"{represent(goal)} is not the status of a goal") from None
+                raise Unsuitable(f"{raw_text(goal)} is not the status of a goal") from None
         self._goals[number] = now
         return len(now - before) if is_known else 0

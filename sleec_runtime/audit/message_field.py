@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
-from sleec_runtime.support.messages import listed, represent
+from sleec_runtime.audit.raw_value import raw_text
+from sleec_runtime.support.messages import listed
 from sleec_runtime.support.suggestions import nearest
 
 _STEP = re.compile(r"\[(-?[0-9]{1,9})\]|(?:^|\.)([^.\[\]]+)")
@@ -48,7 +49,7 @@ class FieldPath:
 
     def _item(self, value: object, index: int, number: int) -> object:
         if not isinstance(value, Sequence) or isinstance(value, str):
-            raise NoSuchField(f"`{self._before(number)}` is not a list; it is {represent(value)}")
+            raise NoSuchField(f"`{self._before(number)}` is not a list; it is {raw_text(value)}")
         if not -len(value) <= index < len(value):
             raise NoSuchField(f"`{self._before(number)}` has {len(value)} items, and no item {index}")
         return value[index]
@@ -56,7 +57,7 @@ class FieldPath:
     def _missing(self, value: object, step: str, number: int) -> str:
         where = f"`{self._before(number)}`" if number else "the message"
         if not isinstance(value, Mapping):
-            return f"{where} has no fields; it is {represent(value)}"
+            return f"{where} has no fields; it is {raw_text(value)}"
         names = [str(name) for name in value]
         near = nearest(step, names)
         hint = f"; did you mean `{near}`?" if near else f"; it has {listed(names)}" if names else ""

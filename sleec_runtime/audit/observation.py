@@ -19,6 +19,7 @@ from fractions import Fraction
 from functools import cache
 from typing import TYPE_CHECKING, Any, Union
 
+from sleec_runtime.audit.raw_value import raw_text
 from sleec_runtime.errors import MalformedObservation
 from sleec_runtime.language.common.formula_printer import print_number
 from sleec_runtime.model import LONGEST, NUMBER, Rational, Value, exact
@@ -158,7 +159,10 @@ def _number(text: str) -> Fraction | Decimal:
     if len(text) > _SHORT or "e" in text or "E" in text:
         from decimal import Decimal
 
-        return Decimal(text)
+        try:
+            return Decimal(text)
+        except ArithmeticError:
+            raise ArithmeticError(f"the exponent of {represent(text)} is too large") from None
     whole, _, digits = text.partition(".")
     return Fraction(int(whole + digits), 10 ** len(digits))
 
@@ -170,13 +174,13 @@ def observation_of(value: object) -> Observation | RawMessage:
     time = _time(value)
     found = [key for key in _KEYS if key in value]
     if not found and type(value.get("lost")) is int:
-        raise MalformedObservation(f"the recorder lost {value['lost']:,} messages before the time {value['time']}")
+        raise MalformedObservation(f"the recorder lost {value['lost']:,} messages before the time {raw_text(time)}")
     if len(found) != 1:
         others = [represent(key) for key in value if key not in ("time", "topic", "type")]
         what = (
             f"it has the keys {listed(found)}" if found else f"unknown key {others[0]}" if others else "it says nothing"
         )
-        raise MalformedObservation(f"{what} at the time {value['time']}", _FORM)
+        raise MalformedObservation(f"{what} at the time {raw_text(time)}", _FORM)
     (key,) = found
     content = value[key]
     if key == "message":
@@ -189,7 +193,7 @@ def observation_of(value: object) -> Observation | RawMessage:
     if key == "domain" and content is None:
         return Entered(time, None)
     if not isinstance(content, str):
-        raise MalformedObservation(f'"{key}" is a name; got {represent(content)}', "write it in quotes")
+        raise MalformedObservation(f'"{key}" is a name; got {raw_text(content)}', "write it in quotes")
     return (
         Occurred(time, content)
         if key == "event"
@@ -205,7 +209,7 @@ def _time(value: Mapping[str, Any]) -> Rational:
     given = value["time"]
     time = given if type(given) is Fraction else exact(given)
     if time is None or not 0 <= time <= LONGEST:
-        raise MalformedObservation(f'"time" is a number of seconds, from 0 to {LONGEST:,}; got {represent(given)}')
+        raise MalformedObservation(f'"time" is a number of seconds, from 0 to {LONGEST:,}; got {raw_text(given)}')
     return time
 
 
@@ -214,15 +218,15 @@ def _message(time: Rational, value: Mapping[str, Any], fields: object) -> RawMes
     if not isinstance(topic, str):
         raise MalformedObservation('a "message" needs a "topic", a name', 'such as "topic": "/battery_state"')
     if not (kind is None or isinstance(kind, str)):
-        raise MalformedObservation(f'"type" is the name of a message type; got {represent(kind)}')
+        raise MalformedObservation(f'"type" is the name of a message type; got {raw_text(kind)}')
     if not isinstance(fields, dict):
-        raise MalformedObservation(f'"message" is an object with the fields of the message; got {represent(fields)}')
+        raise MalformedObservation(f'"message" is an object with the fields of the message; got {raw_text(fields)}')
     return RawMessage(time, topic, kind, fields)
 
 
 def _conditions(content: object) -> dict[str, Value | None]:
     if not isinstance(content, dict):
-        raise MalformedObservation(f'"conditions" is an object with names and values; got {represent(content)}')
+        raise MalformedObservation(f'"conditions" is an object with names and values; got {raw_text(content)}')
     return {name: value_of(name, value) for name, value in content.items()}
 
 
@@ -233,7 +237,7 @@ def value_of(name: str, value: object) -> Value | None:
     number = exact(value)
     if number is None:
         hint = f"give true, false, {NUMBER}, or null if it is not known"
-        raise MalformedObservation(f"the value of {represent(name)} is {represent(value)}", hint)
+        raise MalformedObservation(f"the value of {represent(name)} is {raw_text(value)}", hint)
     return number
 
 

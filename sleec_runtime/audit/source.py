@@ -7,9 +7,8 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from sleec_runtime.audit.message_field import FieldPath
-from sleec_runtime.language.common.formula_printer import print_number
+from sleec_runtime.audit.raw_value import raw_text
 from sleec_runtime.model import Rational, Value, exact
-from sleec_runtime.support.messages import represent
 
 SourceKind = Literal["domain", "condition", "measure", "event", "obligation"]
 GoalState = Literal["accepted", "executing", "succeeded", "canceled", "aborted"]
@@ -21,10 +20,6 @@ GOAL_STATES: Mapping[GoalState, frozenset[int]] = {
     "aborted": frozenset({6}),
 }
 """The states of a goal, and their numbers in action_msgs/msg/GoalStatus. A goal in any later state was accepted."""
-
-
-_SHORT = 40
-"""The most characters of a number that a message has in full."""
 
 
 class Unsuitable(Exception):
@@ -66,11 +61,11 @@ class Source:
             for name, expected in self.values.items():
                 if _same(raw, expected):
                     return name
-            raise Unsuitable(f"`values` has no name for {_shown(raw)}")
+            raise Unsuitable(f"`values` has no name for {raw_text(raw)}")
         if isinstance(raw, str) and self.kind in ("measure", "domain"):
             return raw
         if self.kind == "domain":
-            raise Unsuitable(f"{_shown(raw)} is not a text; name the domains with `values`")
+            raise Unsuitable(f"{raw_text(raw)} is not a text; name the domains with `values`")
         return self._number(raw)
 
     def holds(self, raw: object, before: bool | None) -> bool | None:
@@ -80,12 +75,12 @@ class Source:
             return None
         if self.equals is not None:
             if _form(raw) != _form(self.equals):
-                raise Unsuitable(f"{_shown(raw)} is not {_form(self.equals)}, as in `equals`")
+                raise Unsuitable(f"{raw_text(raw)} is not {_form(self.equals)}, as in `equals`")
             return _same(raw, self.equals)
         if self.above is None and self.below is None:
             if isinstance(raw, bool):
                 return raw
-            raise Unsuitable(f"{_shown(raw)} is not true or false; compare it with `equals`, `above` or `below`")
+            raise Unsuitable(f"{raw_text(raw)} is not true or false; compare it with `equals`, `above` or `below`")
         number = self._number(raw)
         bound = self.until if before and self.until is not None else None
         if self.above is not None:
@@ -96,15 +91,8 @@ class Source:
     def _number(self, raw: object) -> Rational:
         number = exact(raw)
         if number is None:
-            raise Unsuitable(f"{represent(raw)} is not a number")
+            raise Unsuitable(f"{raw_text(raw)} is not a number")
         return number * self.scale + self.offset
-
-
-def _shown(raw: object) -> str:
-    """A raw value in a message. The readers of logs give exact numbers, whose `repr` is not what the log has."""
-    number = exact(raw)
-    text = None if number is None else print_number(number)
-    return represent(raw) if text is None or len(text) > _SHORT else text
 
 
 def _is_missing(raw: object) -> bool:

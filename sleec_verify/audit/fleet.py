@@ -117,7 +117,7 @@ def _connected(distributed: Any, address: str) -> Iterator[Any]:
     """A client of the scheduler."""
     try:
         client = distributed.Client(address, timeout=_CONNECTING, set_as_default=False)
-    except (OSError, ValueError, TimeoutError) as error:
+    except Exception as error:  # noqa: BLE001 - Dask may raise any exception, such as a TypeError for TLS without keys
         reason = str(error).partition("\n")[0]
         hint = "start it with `dask scheduler`, and give its address, such as tcp://10.0.0.1:8786"
         raise FleetError(f"no Dask scheduler answers at {represent(address)}: {reason}", hint) from None

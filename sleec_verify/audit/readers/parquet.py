@@ -74,6 +74,8 @@ class Parquet:
                 f"{self.path} has no column {missing}", "see docs/audit-logs.md for the columns of a log"
             )
         for name in found:
+            if schema.names.count(name) > 1:
+                raise UnreadableLog(f"{self.path} has more than one column {name}", "rename all but one")
             kind = schema.field(name).type
             expected = "a number or a timestamp" if name == "time" else "text"
             if not (_is_time(kind) if name == "time" else _is_text(kind)):

@@ -122,6 +122,8 @@ def test_unreadable_rows_are_items(tmp_path: Path) -> None:
     [
         (pa.table({"event": ["E"]}), "has no column time"),
         (pa.table({"time": [1], "x": ["E"]}), "has no column domain or event or"),
+        (pa.table([[1], [2], ["E"]], ["time", "time", "event"]), "has more than one column time"),
+        (pa.table([[1], ["E"], ["F"]], ["time", "event", "event"]), "has more than one column event"),
         (pa.table({"time": ["1"], "event": ["E"]}), "time is a number or a timestamp; got string"),
         (pa.table({"time": [1], "conditions": [{"A": True}]}), "conditions is text; got struct"),
         (pa.table({"time": [1], "event": [5]}), "event is text; got int64"),

@@ -153,7 +153,7 @@ def test_a_scheduler_that_cannot_be_used_is_reported_quickly(
     monkeypatch.setattr(fleet, "_STARTING", 1.0)
     write_log(tmp_path / "log.jsonl", 5, 3)
     files = {"rules.sleec": RULES}
-    for address in ("tcp://127.0.0.1:1", "nonsense://x", "", "no such host:1"):
+    for address in ("tcp://127.0.0.1:1", "tls://127.0.0.1:1", "nonsense://x", "", "no such host:1"):
         began = time.monotonic()
         ran = cli("audit", "log.jsonl", "--ruleset", "rules.sleec", "--scheduler", address, files=files)
         assert ran.code == 2
