@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import logging
 import threading
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 from sleec_runtime.ros.transport import LONGEST_CLOSE, Fields, Receive, Topic
 from sleec_runtime.ros.transport_errors import TransportUnavailable, UnknownMessageType, WrongFields
+from sleec_runtime.support.messages import represent
 
 _LOG = logging.getLogger("sleec_runtime.ros")
 
@@ -21,7 +23,8 @@ class RclpyTransport:
     """A `Transport` through a node of rclpy. It calls subscribers in one thread of its own.
 
     `name` is the name of the ROS node, and `args` are its ROS arguments, such as ``["--ros-args", "-r", "__ns:=/a"]``.
-    Without `args`, those of the command line count. Raises TransportUnavailable without rclpy.
+    Without `args`, those of the command line count. Raises TransportUnavailable without rclpy, and for a name or
+    arguments that ROS does not accept.
     """
 
     def __init__(self, name: str, args: Sequence[str] | None = None) -> None:
@@ -35,8 +38,15 @@ class RclpyTransport:
             ) from error
         # A context of its own, so that the signal handlers of the program stay as they are.
         self._context = Context()
-        rclpy.init(args=None if args is None else list(args), context=self._context)
-        self._node = rclpy.create_node(name, context=self._context)
+        what = f"the ROS node {represent(name)}"
+        with _refusals(what):
+            rclpy.init(args=None if args is None else list(args), context=self._context)
+        try:
+            with _refusals(what):
+                self._node = rclpy.create_node(name, context=self._context)
+        except TransportUnavailable:
+            self._context.try_shutdown()
+            raise
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._node)
         self._shutdown: type[BaseException] = ExternalShutdownException
@@ -45,12 +55,13 @@ class RclpyTransport:
         self._thread.start()
 
     def publisher(self, topic: Topic) -> RclpyPublisher:
-        """A publisher on `topic`. Raises UnknownMessageType."""
+        """A publisher on `topic`. Raises UnknownMessageType and TransportUnavailable."""
         kind = _message_class(topic.type)
-        return RclpyPublisher(self, kind, self._node.create_publisher(kind, topic.name, _qos(topic)))
+        with _refusals(f"topic {represent(topic.name)}"):
+            return RclpyPublisher(self, kind, self._node.create_publisher(kind, topic.name, _qos(topic)))
 
     def subscribe(self, topic: Topic, receive: Receive) -> None:
-        """Calls `receive` with each message. Raises UnknownMessageType."""
+        """Calls `receive` with each message. Raises UnknownMessageType and TransportUnavailable."""
         from rosidl_runtime_py.convert import message_to_ordereddict
 
         def deliver(message: Any) -> None:
@@ -60,7 +71,9 @@ class RclpyTransport:
                 except BaseException:  # noqa: BLE001 - the executor must continue
                     _LOG.exception("a subscriber of %s failed", topic.name)
 
-        self._node.create_subscription(_message_class(topic.type), topic.name, deliver, _qos(topic))
+        kind = _message_class(topic.type)
+        with _refusals(f"topic {represent(topic.name)}"):
+            self._node.create_subscription(kind, topic.name, deliver, _qos(topic))
 
     def close(self) -> None:
         self._closed = True
@@ -104,6 +117,21 @@ class RclpyPublisher:
     def subscription_count(self) -> int:
         """The number of subscriptions that discovery has found, in all processes."""
         return 0 if self._transport.closed else int(self._publisher.get_subscription_count())
+
+
+@contextmanager
+def _refusals(what: str) -> Iterator[None]:
+    """Raises TransportUnavailable for a name or arguments that ROS does not accept."""
+    from rclpy.exceptions import NameValidationException
+
+    try:
+        yield
+    # The errors of the C library of ROS are RuntimeErrors.
+    except (NameValidationException, RuntimeError) as error:
+        raise TransportUnavailable(
+            f"{what} cannot be created: {error}",
+            "use letters, digits and underscores in names, and check the arguments after --ros-args",
+        ) from error
 
 
 def _message_class(name: str) -> Any:

@@ -8,6 +8,7 @@ context, a message of another class, a value of another type, or a call after th
 from __future__ import annotations
 
 import enum
+import re
 import sys
 import threading
 from collections import OrderedDict, defaultdict
@@ -21,6 +22,10 @@ import pytest
 
 class ExternalShutdownException(Exception):
     pass
+
+
+class NameValidationException(Exception):
+    """A wrong name of a node or topic. Its base is not ValueError."""
 
 
 class HistoryPolicy(enum.Enum):
@@ -58,6 +63,7 @@ class Context:
         self.work: SimpleQueue[Callable[[], object] | None] = SimpleQueue()
 
     def try_shutdown(self) -> None:
+        assert self.initialised
         if self.ok:
             self.ok = False
             self.work.put(None)
@@ -67,6 +73,9 @@ def init(*, args: list[str] | None = None, context: Context | None = None) -> No
     assert context is not None, "the default context would take over the signals"
     assert not context.initialised
     assert args is None or isinstance(args, list)
+    if args and args[-1] == "-r":
+        # An RCLError of the extension module.
+        raise RuntimeError("Failed to parse ROS arguments: Couldn't parse trailing -r flag")
     context.initialised = context.ok = True
     context.args = args
 
@@ -74,7 +83,13 @@ def init(*, args: list[str] | None = None, context: Context | None = None) -> No
 def create_node(node_name: str, *, context: Context | None = None) -> Node:
     assert context is not None
     assert context.ok
+    _validate(node_name, r"[A-Za-z_]\w*")
     return Node(node_name, context)
+
+
+def _validate(name: str, form: str) -> None:
+    if not re.fullmatch(form, name, re.ASCII):
+        raise NameValidationException(f"Invalid name: '{name}'")
 
 
 class Node:
@@ -92,6 +107,7 @@ class Node:
 
     def create_publisher(self, msg_type: type, topic: str, qos_profile: QoSProfile) -> Publisher:
         assert isinstance(qos_profile, QoSProfile)
+        _validate(topic, r"(/?[A-Za-z_]\w*)+")
         self.publishers.append(Publisher(self, msg_type, topic, qos_profile))
         return self.publishers[-1]
 
@@ -99,6 +115,7 @@ class Node:
         self, msg_type: type, topic: str, callback: Callable[[Any], object], qos_profile: QoSProfile
     ) -> object:
         assert isinstance(qos_profile, QoSProfile)
+        _validate(topic, r"(/?[A-Za-z_]\w*)+")
         self.topics[topic].append((self, msg_type, callback, qos_profile))
         return object()
 
@@ -189,6 +206,7 @@ def message_to_ordereddict(msg: Any) -> OrderedDict[str, object]:
 MODULES = {
     "rclpy": (init, create_node),
     "rclpy.context": (Context,),
+    "rclpy.exceptions": (NameValidationException,),
     "rclpy.executors": (ExternalShutdownException, SingleThreadedExecutor),
     "rclpy.qos": (DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy),
     "rosidl_runtime_py": (),

@@ -93,3 +93,17 @@ def test_without_ros_the_error_says_what_to_source(monkeypatch: pytest.MonkeyPat
     monkeypatch.setitem(sys.modules, "rclpy", None)
     with pytest.raises(TransportUnavailable, match="source a ROS 2 workspace"):
         RclpyTransport("node")
+
+
+def test_names_and_arguments_that_ros_does_not_accept_are_refused(rclpy_nodes: list[Node]) -> None:
+    for name, args in (("my-robot", None), ("", None), ("1a", None), ("node", ["--ros-args", "-r"])):
+        with pytest.raises(TransportUnavailable, match="cannot be created"):
+            RclpyTransport(name, args)
+    assert rclpy_nodes == []
+    transport = RclpyTransport("node")
+    for name in ("", "/", "/a b", "/1a", "/a-b"):
+        with pytest.raises(TransportUnavailable, match="use letters, digits and underscores"):
+            transport.publisher(Topic(name))
+        with pytest.raises(TransportUnavailable, match="use letters, digits and underscores"):
+            transport.subscribe(Topic(name), print)
+    transport.close()
