@@ -9,6 +9,8 @@ from typing import Any
 from sleec_runtime.ros.messages import DomainChange, Executed, MissionEvent
 from sleec_runtime.ros.node import Node, OnProblem
 from sleec_runtime.ros.transport import Transport
+from sleec_runtime.ros.transport_errors import MalformedMessage
+from sleec_runtime.support.messages import represent
 
 
 class MissionManagerNode:
@@ -33,6 +35,8 @@ class MissionManagerNode:
 
         Raises MalformedMessage for other data.
         """
+        if arguments is not None and not isinstance(arguments, Mapping):
+            raise MalformedMessage(f"the arguments are {represent(arguments)}, not a mapping")
         self._send(MissionEvent(trigger=trigger, arguments=dict(arguments or {}), id=uuid.uuid4().hex))
 
     def enter_domain(self, domain: str | None) -> None:

@@ -21,6 +21,8 @@ from sleec_runtime.ros.managed_triggers import managed_triggers
 from sleec_runtime.ros.messages import Completed, Executed, MissionEvent, Start
 from sleec_runtime.ros.node import Node
 from sleec_runtime.ros.recent_ids import RecentIds
+from sleec_runtime.ros.transport_errors import MalformedMessage
+from sleec_runtime.support.messages import represent
 
 MOST_ARGUMENTS = Start.max_size - 10_000
 """The most characters of the arguments of a trigger. The other fields of a `Start` need less than the rest."""
@@ -62,7 +64,9 @@ class DeadlineManager:
         message can carry to the tasks. Reports this on /executed."""
         arrived = time.time()
         try:
-            write_object({"arguments": arguments}, MOST_ARGUMENTS)
+            if not isinstance(arguments, Mapping):
+                raise MalformedMessage(f"the message is {represent(arguments)}, not a mapping of fields")
+            write_object({"arguments": dict(arguments)}, MOST_ARGUMENTS)
             self._sleec.trigger(trigger, dict(arguments))
         except SleecError as error:
             failed = f"{type(error).__name__}: {error}"

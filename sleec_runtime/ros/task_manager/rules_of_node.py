@@ -30,7 +30,10 @@ def claim_rules(sleec: Sleec, labels: Iterable[str] | None) -> frozenset[str]:
         if not own and not any(code.given(literal.name) for clause in clauses for literal in literals(clause)):
             raise NotBound("this node has no code for the rules", (), "give it callables by `implement`, or methods")
     else:
-        own = frozenset(labels)
+        try:
+            own = frozenset(labels)
+        except TypeError:
+            raise WrongType("rules", labels, "a list of labels") from None
         for label in own - rules.keys():
             raise UnknownLabel(label, rules)
     managed = managed_triggers(snapshot_of(sleec).index.whole)

@@ -10,9 +10,10 @@ import pytest
 from sleec_runtime import VirtualClock, language
 from sleec_runtime.audit.auditor import Auditor
 from sleec_runtime.errors import SleecError
-from sleec_runtime.ros import MonitorNode, Network, TaskManagerNode, Topic
+from sleec_runtime.ros import MissionManagerNode, MonitorNode, Network, TaskManagerNode, Topic
 from sleec_runtime.ros.messages import ConditionsUpdate, MissionEvent
 from sleec_runtime.ros.monitoring.deviation_report import DeviationReport
+from sleec_runtime.ros.transport import EMPTY
 from sleec_runtime.ros.transport_errors import MalformedMessage
 from tests.support.robot_nodes import Robot
 
@@ -160,6 +161,20 @@ def test_arguments_that_no_message_carries_are_refused(value: object) -> None:
     robot.outside.publisher(topic).publish({"data": 1.5})
     robot.deliver()
     assert robot.log == ["Help"]
+
+
+@pytest.mark.parametrize("fields", [None, 5, "x", [1]])
+def test_fields_that_are_no_mapping_are_refused(fields: Any) -> None:
+    robot = Robot(RULES)
+    robot.task()
+    robot.manager.subscribe("/fallen", "Fall")
+    robot.outside.publisher(Topic("/fallen", EMPTY)).publish(fields)
+    robot.deliver()
+    arguments: Any = 0 if fields is None else fields
+    with pytest.raises(MalformedMessage):
+        MissionManagerNode(robot.outside).start("Ring", arguments)
+    assert [type(problem) for problem in robot.problems] == [MalformedMessage]
+    assert robot.trigger("Fall") == ["Help"]
 
 
 @pytest.mark.parametrize("number", [10**1_000 - 1, 1 - 10**1_000, 2**3_322 - 1], ids=["most", "least", "longest"])

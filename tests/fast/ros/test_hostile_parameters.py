@@ -11,7 +11,7 @@ import pytest
 
 from sleec_runtime import VirtualClock, language
 from sleec_runtime.audit.auditor import Auditor
-from sleec_runtime.errors import SleecError, SnapshotRefused, WrongType
+from sleec_runtime.errors import SleecError, SnapshotRefused, UnknownLabel, WrongType
 from sleec_runtime.ros import MissionManagerNode, MonitorNode, Network, RecorderNode, Topic
 from sleec_runtime.ros.monitoring.live_topics import RECORDED
 from sleec_runtime.ros.transport import DEEPEST
@@ -57,6 +57,12 @@ def test_a_length_of_time_may_be_any_number(value: Any) -> None:
     watched = monitor(Network(), period=value, patience=value)
     watched.clock.advance(0.1)  # type: ignore[attr-defined]
     watched.close()
+
+
+@pytest.mark.parametrize("rules", [5, "door", [["door"]], [1], ["dor"]])
+def test_rules_are_a_list_of_labels(rules: Any) -> None:
+    with pytest.raises((WrongType, UnknownLabel)):
+        Robot(RULES).task(rules=rules)
 
 
 @pytest.mark.parametrize("name", [None, 5, b"x", "\ud800", "a\nb", "\x1b[31m"])
