@@ -1,17 +1,24 @@
-"""Values of logs in messages."""
+"""Values of logs as text."""
 
 from __future__ import annotations
 
 from sleec_runtime.language.common.formula_printer import print_number
-from sleec_runtime.model import exact
+from sleec_runtime.model import Rational, exact
 from sleec_runtime.support.messages import represent
-
-_LONGEST = 40
-"""The most characters of a number that is written in full."""
 
 
 def raw_text(raw: object) -> str:
     """A value as the log has it. The readers of logs give exact numbers, whose `repr` is that of a Fraction."""
     number = exact(raw)
-    text = None if number is None else print_number(number)
-    return represent(raw) if text is None or len(text) > _LONGEST else text
+    return represent(raw) if number is None else number_text(number, 40)
+
+
+def number_text(number: Rational, longest: int) -> str:
+    """A number; with more than `longest` characters, it is rounded. It may be larger than a float can be."""
+    text = print_number(number)
+    if len(text) <= longest:
+        return text
+    from decimal import Context, Decimal
+
+    rounded = Context(prec=6).divide(Decimal(number.numerator), Decimal(number.denominator))
+    return f"{rounded.normalize():g}"

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from decimal import Context, Decimal
 from functools import lru_cache
 from typing import Literal
 
-from sleec_runtime.language.common.formula_printer import print_number
-from sleec_runtime.model import Rational
+from sleec_runtime.audit.raw_value import number_text
 from sleec_runtime.support.messages import listed, represent
 from sleec_runtime.support.word_forms import stem, words_of_each
 from sleec_verify.audit.suggestion.log_topics import FieldValues, Topic
@@ -75,13 +73,4 @@ def stems_of(name: str) -> frozenset[str]:
 def _range(found: FieldValues) -> str:
     assert found.least is not None
     assert found.most is not None
-    return f"{_decimal(found.least)} to {_decimal(found.most)}"
-
-
-def _decimal(number: Rational) -> str:
-    text = print_number(number)
-    if len(text) < 12:
-        return text
-    # Numbers of a log may be larger than a float can be.
-    rounded = Context(prec=6).divide(Decimal(number.numerator), Decimal(number.denominator))
-    return f"{rounded.normalize():g}"
+    return f"{number_text(found.least, 11)} to {number_text(found.most, 11)}"

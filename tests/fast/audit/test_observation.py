@@ -59,6 +59,7 @@ def test_times_are_exact() -> None:
         ('{"time": 1, "event": "A', "it is not JSON"),
         ('{"time": -0.5, "event": "A"}', "got -0.5"),
         ('{"time": -25e-1, "event": "A"}', "got -2.5"),
+        ('{"time": -1e300, "event": "A"}', "got -1e+300"),
         ('{"time": 0.5, "x": 1}', "at the time 0.5"),
         ('{"time": 1e9999999999999999999, "event": "A"}', "the exponent of '1e9999999999999999999' is too large"),
         ('{"time": 1, "event": 0.25}', "got 0.25"),
