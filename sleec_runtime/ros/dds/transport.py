@@ -33,9 +33,9 @@ if TYPE_CHECKING:
 
 _LOG = logging.getLogger("sleec_runtime.ros")
 
-LARGEST = 1 << 20
-"""The size of the largest message that is accepted, in bytes, without another limit."""
-
+LARGEST = (16 << 20) + 64
+"""The size of the largest message that is accepted, in bytes, without another limit: a `LayersUpdate` has up to 16 MiB,
+and its encoding adds a few bytes."""
 
 LOOKS = 4
 """How often the transport looks for messages before it delivers those that it has found."""

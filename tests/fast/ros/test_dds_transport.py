@@ -14,6 +14,7 @@ from sleec_runtime.errors import SleecError
 from sleec_runtime.ros.dds.cdr import encode
 from sleec_runtime.ros.dds.message_types import STANDARD
 from sleec_runtime.ros.dds.transport import DdsTransport
+from sleec_runtime.ros.messages import LayersUpdate
 from sleec_runtime.ros.transport import Topic
 from sleec_runtime.ros.transport_errors import TransportUnavailable, WrongFields
 from tests.support.dds import PATIENCE, eventually, require_dds, unused_domain, unused_topic
@@ -202,6 +203,15 @@ def test_a_program_with_types_of_its_own_takes_part(transports) -> None:
     assert eventually(answered)
     (answer,) = [one for one in received if one.velocity]
     assert (answer.header.frame_id, answer.name, answer.velocity) == ("arm", ["wrist"], [3.0])
+
+
+def test_the_longest_message_of_a_node_arrives(transports) -> None:
+    topic, inbox = LayersUpdate.topic, Inbox()
+    sender, receiver = transports(), transports()
+    text = "x" * LayersUpdate.max_size
+    sender.publisher(topic).publish({"data": text})
+    receiver.subscribe(topic, inbox.receive)
+    assert inbox.next() == {"data": text}
 
 
 def test_bad_messages_are_logged_and_dropped(transports, caplog: pytest.LogCaptureFixture) -> None:
