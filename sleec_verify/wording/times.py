@@ -33,7 +33,7 @@ def length_words(length: Length) -> str:
     amount = length.amount
     number = 1 if isinstance(amount, Number) and amount.value == 1 else 2
     if isinstance(amount, Number):
-        words = spoken(amount.constant) if amount.constant else str(amount.value)
+        words = f"{spoken(amount.constant)} ({amount.value})" if amount.constant else str(amount.value)
     elif isinstance(amount, Calculation):
         words = f"({amount.written(spoken, str)})"
     else:

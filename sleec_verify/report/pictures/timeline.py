@@ -18,6 +18,8 @@ from sleec_verify.wording.translation import Language, translated
 
 _LEFT, _COLUMN, _ROW = 236, 132, 28
 """The width of names, the distance of two times, and the height of a row."""
+_LETTERS, _LINE = 22, 13
+"""The letters of a line above a time, and the height of the line."""
 _MOST_TIMES = 40
 """The most times that are shown."""
 
@@ -54,13 +56,15 @@ class _Picture:
             drawing.text(16, y, line, "title")
             y += 22
         under = drawing.group()
-        top = y + 18
+        labels = {time: wrap(self._words(duration(time)), _LETTERS) for time in self._times}
+        top = y + 18 + _LINE * (max(map(len, labels.values()), default=1) - 1)
         y = self._events(drawing, top + 6)
         y = self._conditions(drawing, y)
         y = self._windows(drawing, y)
         for time in self._times:
             under.line(self._x(time), top, self._x(time), y, "grid")
-            drawing.text(self._x(time), top - 6, self._words(duration(time)), "small middle")
+            for number, label in enumerate(reversed(labels[time])):
+                drawing.text(self._x(time), top - 6 - number * _LINE, label, "small middle")
         if self._timeline.now is not None:
             now = self._timeline.moments[self._timeline.now].time
             under.line(self._x(now), top, self._x(now), y, "breach-line")

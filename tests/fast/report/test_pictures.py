@@ -150,6 +150,17 @@ def test_a_timeline_shows_events_and_windows() -> None:
     assert "prohibited" in kinds
 
 
+def test_long_times_do_not_overlap() -> None:
+    text = "CONSTANT Long = 999999999999\nWHEN A THEN B WITHIN Long seconds\nWHEN A THEN NOT B WITHIN Long seconds\n"
+    (result,) = run_checks(parse(text), ["conflict"])
+    (finding,) = result.findings
+    assert finding.timeline is not None
+    picture = timeline_picture(finding.timeline, finding.message)
+    labels = [text.text or "" for text in elements(picture, "text") if text.get("class") == "small middle"]
+    assert " ".join(reversed(labels[1:])) == "11574074 days 1 hour 46 minutes 39 seconds"
+    assert max(map(len, labels)) <= 22
+
+
 def test_a_window_without_an_instant_has_no_bar() -> None:
     ruleset = parse("MEASURE w: integer\nASSUME w >= -3 AND w <= 5\nWHEN A THEN B WITHIN w minutes\n")
     (result,) = run_checks(ruleset, ["conflict"])

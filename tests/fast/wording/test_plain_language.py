@@ -66,6 +66,13 @@ def test_conditions_and_responses_read_as_sentences() -> None:
     assert response_words(call.default) == "the robot must answer the call"
 
 
+def test_a_constant_is_shown_with_its_value() -> None:
+    rule = parse("CONSTANT Soon = 5\nWHEN A THEN B WITHIN Soon TO 9 minutes UNLESS Age < Soon").rules[0]
+    assert response_words(rule.default) == "the robot must B from soon (5) minutes to 9 minutes after the trigger"
+    assert rule.hedges[0].condition is not None
+    assert condition_words(rule.hedges[0].condition) == "age is below soon (5)"
+
+
 def test_situations_read_as_sentences() -> None:
     witness = Witness(("UserCalls",), {"Asleep": False, "UserAge": 15, "is cold": True}, ("FireAlarm",))
     assert situation_words(witness) == (
