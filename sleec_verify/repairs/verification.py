@@ -16,6 +16,7 @@ from sleec_verify.encoding.scope import WHOLE, Scope
 from sleec_verify.repairs.edit import OffsetMap, edited, in_order, inverse
 from sleec_verify.repairs.repair import Candidate
 from sleec_verify.results.finding import CheckResult, Finding, Unknown
+from sleec_verify.wording.sentence import sentence
 
 Identity = tuple[Hashable, ...]
 """What makes a finding the same before and after a change. A conflict is known by its rules and the places of its
@@ -106,7 +107,11 @@ class Verification:
         for names in (cheap, own, [name for name in others if name in COSTLY]):
             for result in checking.results(names):
                 if isinstance(result.verdict, Unknown) and result.name not in self._unknown:
-                    why = f"the check {result.name} of the changed text is unknown: {result.verdict.why}"
+                    why = sentence(
+                        "the check {check} of the changed text is unknown: {why}",
+                        check=result.name,
+                        why=result.verdict.why,
+                    )
                     raise Rejected(why, undecided=True)
                 more = Counter(places.identity(one) for one in result.findings) - allowed
                 for one in result.findings:

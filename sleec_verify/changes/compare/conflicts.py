@@ -24,6 +24,7 @@ from sleec_verify.encoding.equation import disjunction
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.query.inconsistent_sets import InconsistentSet
 from sleec_verify.query.witness import smallest_situation
+from sleec_verify.wording.phrases import grouped
 from sleec_verify.wording.sentence import sentence
 
 MOST, MOST_PER_RULE = 2_000, 10
@@ -49,9 +50,10 @@ def _on(comparison: Comparison, which: SideName, way: Way) -> Iterator[Union[Con
     most = MOST + MOST_PER_RULE * len(comparison.rows)
     for tried, (clash, rows) in enumerate(_causes(comparison, which)):
         if tried >= most:
-            yield Undecidable(
-                "conflicts", f"only the first {most:,} sets of rules with possible conflicts were examined"
+            why = sentence(
+                "only the first {number} sets of rules with possible conflicts were examined", number=grouped(most)
             )
+            yield Undecidable(sentence("conflicts"), why)
             return
         within = [region for smaller, region in seen.get(clash.literals, ()) if smaller < rows]
         region = _region(comparison, which, clash, rows)

@@ -28,6 +28,7 @@ from sleec_verify.encoding.budget import Undecided, for_file
 from sleec_verify.encoding.calculations import calculations, named
 from sleec_verify.encoding.trace_scope import Untimed, speaks_of_traces
 from sleec_verify.query.question import is_possible
+from sleec_verify.wording.phrases import quoted
 from sleec_verify.wording.sentence import sentence
 
 _Told = TypeVar("_Told", Change, ConflictChange, SituationChange, TimedConflictChange)
@@ -63,7 +64,7 @@ def _difference(old: Ruleset, new: Ruleset, domain: str | None, untimed: Untimed
     )
     calculated = list(dict.fromkeys(one for ruleset in (old, new) for one in calculations(ruleset)))
     if calculated and (old.statements, old.reading) != (new.statements, new.reading):
-        why = "calculations with several measures are not compared"
+        why = sentence("calculations with several measures are not compared")
         return shared._replace(undecided=(*shared.undecided, Undecidable(named(calculated), why)))
     if domain is not None:
         domains: Sequence[str] = (domain,)
@@ -130,7 +131,8 @@ def _conditions_that_are_measures(comparison: Comparison) -> Iterator[Undecidabl
     for which in SIDES:
         measures = comparison.sides[other(which)].stated.measures
         for name in sorted(condition_names(_formulas(comparison, which)) & measures.keys()):
-            yield Undecidable(name, f"`{name}` is true or false in one version and a measure in the other")
+            why = sentence("{name} is true or false in one version and a measure in the other", name=quoted(name))
+            yield Undecidable(name, why)
 
 
 def _formulas(comparison: Comparison, which: SideName) -> Iterator[Formula]:
@@ -179,13 +181,12 @@ def _not_comparable(old: Ruleset, new: Ruleset) -> Iterator[Undecidable]:
     from sleec_runtime.model import relation_name
 
     mine, theirs = relations_over_time(old), relations_over_time(new)
-    for one, others, word in ((mine, theirs, "gone"), (theirs, mine, "new")):
+    gone = sentence("it is gone, but its meaning over several moments is not compared")
+    added = sentence("it is new, but its meaning over several moments is not compared")
+    for one, others, why in ((mine, theirs, gone), (theirs, mine, added)):
         for relation_ in one:
             if relation_ not in others:
-                name = relation_name(relation_)
-                yield Undecidable(
-                    f"the relation {name}", f"it is {word}, but its meaning over several moments is not compared"
-                )
+                yield Undecidable(sentence("the relation {relation}", relation=relation_name(relation_)), why)
 
 
 def _notes(comparison: Comparison) -> Iterator[str]:

@@ -22,6 +22,7 @@ from sleec_verify.changes.diagram.decision_diagram import FALSE, TooLarge
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.query.witness import smallest_situation
 from sleec_verify.results.finding import Witness
+from sleec_verify.wording.phrases import quoted
 from sleec_verify.wording.sentence import sentence
 
 
@@ -141,5 +142,9 @@ def _incomparable(comparison: Comparison, rows: list[int], which: SideName, lite
         return None
     for one in against:
         if one.negated == literal.negated and comparison.implied_where(one, literal) is None:
-            return f"the windows of `{literal.name}` cannot be compared: {incomparability(one, literal)}"
+            return sentence(
+                "the windows of {event} cannot be compared: {why}",
+                event=quoted(literal.name),
+                why=incomparability(one, literal),
+            )
     return None

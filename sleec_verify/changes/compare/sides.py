@@ -29,6 +29,8 @@ from sleec_verify.changes.compare.result import Undecidable
 from sleec_verify.changes.diagram.formulas import compares
 from sleec_verify.changes.relations import relations_at_one_instant
 from sleec_verify.encoding.equation import conjunction, disjunction
+from sleec_verify.wording.phrases import quoted
+from sleec_verify.wording.sentence import sentence
 
 
 @dataclass(frozen=True)
@@ -137,9 +139,7 @@ def common(old: Ruleset, new: Ruleset) -> Vocabulary:
         if one.kind == other.kind and one.values == other.values:
             continue
         if (one.kind == "scale") != (other.kind == "scale"):
-            found.clashes.append(
-                Undecidable(name, f"`{name}` is {_kind(one)} in one version and {_kind(other)} in the other")
-            )
+            found.clashes.append(Undecidable(name, _clash(name, one)))
         elif one.kind == "scale":
             values = (*other.values, *(value for value in one.values if value not in other.values))
             found.measures[name] = found.scales[name] = replace(other, values=values)
@@ -151,8 +151,10 @@ def common(old: Ruleset, new: Ruleset) -> Vocabulary:
     return found
 
 
-def _kind(measure: Measure) -> str:
-    return "a scale" if measure.kind == "scale" else "a number"
+def _clash(name: str, old: Measure) -> str:
+    if old.kind == "scale":
+        return sentence("{name} is a scale in one version and a number in the other", name=quoted(name))
+    return sentence("{name} is a number in one version and a scale in the other", name=quoted(name))
 
 
 def side(ruleset: Ruleset, vocabulary: Vocabulary) -> RulesetSide:
