@@ -222,6 +222,11 @@ class _Reader:
 
     def _check_comparison(self, source: Source) -> None:
         where, above, below, until = source.where, source.above, source.below, source.until
+        if (source.scale, source.offset) != (1, 0) and above is None and below is None:
+            if source.kind != "measure":
+                raise self._error(where, "`scale` and `offset` need `above` or `below`", "`equals` compares the field")
+            if source.values:
+                raise self._error(where, "`values` excludes `scale` and `offset`", "`values` names values of the field")
         if sum(one is not None for one in (above, below, source.equals)) > 1:
             raise self._error(where, "`above`, `below` and `equals` exclude each other", "give one of them")
         if until is not None:

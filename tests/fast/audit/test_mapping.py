@@ -251,6 +251,13 @@ def test_a_mapping_says_what_live_topics_are() -> None:
         ),
         ("[conditions]\nDark = {topic = '/t', field = 'a', above = 1, below = 2}", "exclude each other", None),
         ("[conditions]\nDark = {topic = '/t', field = 'a', until = 2}", "`until` needs", None),
+        (
+            "[conditions]\nDark = {topic = '/t', field = 'a', scale = 2, equals = 4}",
+            "`scale` and `offset` need",
+            "field",
+        ),
+        ("[events]\nButton = {topic = '/t', field = 'a', offset = 2}", "need `above` or `below`", "field"),
+        ("[measures]\nrisk = {topic = '/t', field = 'a', scale = 2, values = {low = 1}}", "`values` excludes", "field"),
         ("[conditions]\nDark = {topic = '/t', field = 'a', above = 1, until = 2}", "`until` is at most `above`", None),
         ("[conditions]\nDark = {topic = '/t', field = 'a', equals = [1]}", "`equals` is [1]", None),
         ("[events]\nButton = {topic = '/t', field = 'a', each = 1}", "`each` is 1, not true or false", None),
