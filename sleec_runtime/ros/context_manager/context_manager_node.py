@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import uuid
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
@@ -61,12 +63,14 @@ class ContextManagerNode:
         with node.starting():
             saved = None if self._file is None else self._file.read()
             if saved is not None:
-                self._restore_context(saved)
+                with _fitting_checkpoint():
+                    self._restore_context(saved)
             self.hedge_clauses = HedgeClausesManager(sleec, lambda change: self.layer_updater.publish(change))
             self.layer_updater = LayerUpdater(node, sleec, self.manager, self.hedge_clauses.active_layers)
             self.deadlines = DeadlineManager(node, sleec, self.layer_updater, self._save)
             if saved is not None:
-                self.deadlines.restore(saved.starts, saved.pending)
+                with _fitting_checkpoint():
+                    self.deadlines.restore(saved.starts, saved.pending)
             self.deadlines.listen()
             DomainListener(node, self.hedge_clauses, self._save)
             ConditionsUpdatesListener(node, self.hedge_clauses, self._save)
@@ -94,18 +98,13 @@ class ContextManagerNode:
         self.deadlines.repeat()
 
     def _restore_context(self, saved: Checkpoint) -> None:
-        try:
-            update = LayersUpdate.from_json(saved.update)
-            ours, theirs = Identifier().identity(snapshot_of(self._sleec)), Identity(update.ruleset, update.reading)
-            if theirs != ours:
-                raise SleecError(f"it is of the rules {theirs}, and this node has {ours}")
-            if update.domain != self._sleec.domain:
-                self._sleec.enter_domain(update.domain)
-            self._sleec.update(update.conditions)
-        except SleecError as error:
-            raise SnapshotRefused(
-                f"the checkpoint does not fit: {error}", "move the file away to start without it"
-            ) from None
+        update = LayersUpdate.from_json(saved.update)
+        ours, theirs = Identifier().identity(snapshot_of(self._sleec)), Identity(update.ruleset, update.reading)
+        if theirs != ours:
+            raise SleecError(f"it is of the rules {theirs}, and this node has {ours}")
+        if update.domain != self._sleec.domain:
+            self._sleec.enter_domain(update.domain)
+        self._sleec.update(update.conditions)
 
     def _save(self) -> None:
         if self._file is not None and not self._node.closed:
@@ -127,3 +126,14 @@ class ContextManagerNode:
                 f"another Context Manager, {message.manager}, is active in addition to this one, {self.manager}",
                 "stop one of them: tasks follow neither while both are active",
             )
+
+
+@contextmanager
+def _fitting_checkpoint() -> Iterator[None]:
+    """Raises SnapshotRefused, with what a user of the node can do, if the block raises a SleecError."""
+    try:
+        yield
+    except SleecError as error:
+        raise SnapshotRefused(
+            f"the checkpoint does not fit: {error.message}", "move the file away to start without it"
+        ) from None

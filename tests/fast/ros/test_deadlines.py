@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import time
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
@@ -259,7 +261,7 @@ def test_the_context_and_the_domain_survive_a_restart(tmp_path: Path) -> None:
 def test_a_malformed_checkpoint_is_refused(text: str, tmp_path: Path) -> None:
     path = tmp_path / "checkpoint.json"
     path.write_bytes(text.encode("latin-1"))
-    with pytest.raises(SleecError):
+    with pytest.raises(SnapshotRefused, match="checkpoint"):
         Robot(NURSE, checkpoint=path)
 
 
@@ -268,6 +270,17 @@ def test_a_checkpoint_of_other_rules_is_refused(tmp_path: Path) -> None:
     Robot(NURSE, checkpoint=path).report({"Night": True})
     with pytest.raises(SnapshotRefused, match="of the rules"):
         Robot(language.parse("RULE tea WHEN Thirst THEN MakeTea"), checkpoint=path)
+
+
+def test_a_checkpoint_of_a_time_to_come_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "checkpoint.json"
+    Ward(checkpoint=path).fall()
+    saved = json.loads(path.read_text(encoding="utf-8"))
+    saved["pending"]["saved_at"] = time.time() + 1000
+    path.write_text(json.dumps(saved), encoding="utf-8")
+    with pytest.raises(SnapshotRefused, match="the clock was set back") as refused:
+        Robot(NURSE, checkpoint=path)
+    assert refused.value.hint == "move the file away to start without it"
 
 
 def test_a_checkpoint_that_cannot_be_written_is_reported_and_the_node_continues(tmp_path: Path) -> None:
