@@ -63,7 +63,8 @@ def details(finding: Finding) -> Iterator[tuple[str, str]]:
     if finding.note is not None:
         yield sentence("Why"), sentence("{text}.", text=finding.note)
     if finding.help is not None:
-        yield sentence("Advice"), sentence("{text}.", text=finding.help)
+        is_question = finding.help.endswith("?")
+        yield sentence("Advice"), finding.help if is_question else sentence("{text}.", text=finding.help)
 
 
 def _begin(finding: Finding) -> str:

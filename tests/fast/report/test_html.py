@@ -87,6 +87,14 @@ def test_nothing_on_the_page_runs_or_is_loaded(cli: Cli) -> None:
     assert "Nothing was checked" in page.text
 
 
+@pytest.mark.parametrize("form", ["html", "markdown"])
+def test_advice_that_is_a_question_has_one_mark(form: str, cli: Cli) -> None:
+    text = "WHEN DoorOpened THEN CloseDoor\nPURPOSE p EXISTS CloseDoors\n"
+    out = cli("report", "rules.sleec", "--format", form, files={"rules.sleec": text}).out
+    assert "did you mean" in out.lower()
+    assert "?." not in out
+
+
 def test_ids_are_unique_and_links_lead_to_them(cli: Cli) -> None:
     ran = cli("report", "a/rules.sleec", "b/rules.sleec", files={f"{one}/rules.sleec": CONFLICT for one in "ab"})
     page = Page(ran.out)
