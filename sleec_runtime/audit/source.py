@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from math import isinf
 from typing import Literal
 
 from sleec_runtime.audit.message_field import FieldPath
@@ -70,7 +71,8 @@ class Source:
 
     def holds(self, raw: object, before: bool | None) -> bool | None:
         """Whether a raw value makes the condition or event true; None if it is unknown, as NaN is. `before` is the last
-        answer. Raises Unsuitable."""
+        answer. A bound can be compared with infinity, which range sensors send if nothing is near (REP 117). Raises
+        Unsuitable."""
         if _is_missing(raw):
             return None
         if self.equals is not None:
@@ -81,7 +83,11 @@ class Source:
             if isinstance(raw, bool):
                 return raw
             raise Unsuitable(f"{raw_text(raw)} is not true or false; compare it with `equals`, `above` or `below`")
-        number = self._number(raw)
+        number: Rational | float
+        if isinstance(raw, float) and isinf(raw) and self.scale:
+            number = raw if self.scale > 0 else -raw
+        else:
+            number = self._number(raw)
         bound = self.until if before and self.until is not None else None
         if self.above is not None:
             return number > (self.above if bound is None else bound)

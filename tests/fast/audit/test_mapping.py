@@ -105,6 +105,16 @@ def test_a_value_that_is_missing_or_has_another_type_is_unknown(entry: str, raw:
     assert meanings(events, ("/t", {"data": raw})) == problems
 
 
+@pytest.mark.parametrize("scale", [2, -2])
+@pytest.mark.parametrize("raw", [math.inf, -math.inf])
+def test_infinity_is_compared_with_bounds(raw: float, scale: int) -> None:
+    for bound, expected in (("above", raw * scale > 0), ("below", raw * scale < 0)):
+        condition = f'[conditions]\nDark = {{topic = "/t", field = "data", {bound} = 3, scale = {scale}}}'
+        assert meanings(condition, ("/t", {"data": raw})) == [Reported(0, {"Dark": expected})]
+    measure = f'[measures]\nbattery = {{topic = "/t", field = "data", scale = {scale}}}'
+    assert meanings(measure, ("/t", {"data": raw})) == [f"{raw} is not a number", Reported(0, {"battery": None})]
+
+
 def test_an_unknown_value_does_not_repeat_an_event() -> None:
     text = '[events]\nButton = {topic = "/t", field = "data", equals = "stop", each = false}'
     messages = [("/t", {"data": data}) for data in ("go", "stop", None, "stop", "go", "stop")]
