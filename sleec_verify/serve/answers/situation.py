@@ -24,8 +24,10 @@ def situation(session: Session, body: Body) -> dict[str, Json]:
     """What the rules require in a situation, with the clause that decides in each rule and the reasons. Instead of the
     text, a request may have the digest `of` a text that was checked before."""
     digest = body.text_or_none("of")
-    ruleset = scoped(session.ruleset(body.text("text")) if digest is None else session.known_ruleset(digest), body)
-    context = context_of(ruleset, body.texts("triggers"), body.values("conditions"))
+    whole = session.ruleset(body.text("text")) if digest is None else session.known_ruleset(digest)
+    # The switches are those of all domains.
+    context = context_of(whole, body.texts("triggers"), body.values("conditions"))
+    ruleset = scoped(whole, body)
     answer = explain(triggered_part(ruleset, context.triggers), context)
     steps = [_rule(ruleset, context, because) for because in answer.because]
     return {

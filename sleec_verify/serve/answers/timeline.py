@@ -26,8 +26,10 @@ _MOST = 500
 def timeline(session: Session, body: Body) -> dict[str, Json]:
     """The windows of all responses, and the requirements that can no longer be met. The last event is now. Values of
     conditions last until they change."""
-    ruleset = scoped(session.ruleset(body.text("text")), body)
-    moments = _moments(ruleset, body.parts("events"))
+    whole = session.ruleset(body.text("text"))
+    # The events are those of all domains.
+    moments = _moments(whole, body.parts("events"))
+    ruleset = scoped(whole, body)
     if not moments:
         return {"windows": [], "problems": []}
     trace = Trace(tuple(Instant(*moment) for moment in moments))

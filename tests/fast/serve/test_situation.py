@@ -57,6 +57,21 @@ def test_the_reading_and_the_domain_can_be_chosen(tmp_path: Path) -> None:
     assert asked(tmp_path, text, conditions={"y": True}, reading="priority")["obligations"] == ["Call", "Ring"]
 
 
+def test_switches_of_other_domains_stay_as_they_are(tmp_path: Path) -> None:
+    text = "MEASURE Age: number\nDOMAIN home\nRULE a\nWHEN Ring THEN Open UNLESS Dark AND Age < 3 IN WHICH CASE Wait\n"
+    text += "DOMAIN ward\nRULE b\nWHEN Bell THEN Call\n"
+    page = page_on(tmp_path)
+    situation: dict[str, Any] = {"triggers": ["Bell", "Ring"], "conditions": {"Dark": True, "Age": 2}}
+    required = {
+        domain: page.post("situation", text=text, domain=domain, **situation)["obligations"]
+        for domain in (None, "home", "ward")
+    }
+    assert required == {None: ["Call", "Wait"], "home": ["Wait"], "ward": ["Call"]}
+    event = {"time": 0, "executed": ["Open"], **situation}
+    answer = page.post("timeline", text=text, domain="ward", events=[event])
+    assert [window["obligation"] for window in answer["windows"]] == ["Call"]
+
+
 def test_windows_are_told(tmp_path: Path) -> None:
     answer = asked(tmp_path, "RULE a WHEN Bell THEN Open WITHIN 5 minutes\n")
     assert answer["rules"][0]["obligations"] == ["Open within 5 minutes"]
