@@ -163,7 +163,7 @@ def _content(ruleset: Ruleset, parts: _Parts, progress: Progress) -> Content:
 
 
 def _base(ruleset: Ruleset, name: str, scope: Scope) -> Base:
-    """The comparison with a file or a revision. Raises `SleecError` if it does not exist."""
+    """The comparison with a file or a revision. Raises `UnreadableFile` if it does not exist."""
     from sleec_runtime.language import parse_source
     from sleec_verify.changes.compare import compare
     from sleec_verify.changes.revisions.commits import NOW, commit
@@ -177,7 +177,13 @@ def _base(ruleset: Ruleset, name: str, scope: Scope) -> Base:
     if os.path.isfile(name):
         old = Version(name)
     else:
-        (versions,) = Repository(note_link).versions((name, commit(name)), (NOW, None), (path,))
+        try:
+            (versions,) = Repository(note_link).versions((name, commit(name)), (NOW, None), (path,))
+        except SleecError as error:
+            raise UnreadableFile(
+                f"--base {name} is neither a file nor a version in git: {error.message}",
+                "name a file, a branch or a commit",
+            ) from None
         old = versions.old
     try:
         if old is None:

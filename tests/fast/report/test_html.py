@@ -156,7 +156,9 @@ def test_the_page_shows_what_changed_since_a_file(cli: Cli) -> None:
     page = Page(ran.out)
     assert "What changed since old.sleec" in page.text
     assert "New conflict: dark and light: turn on light is now both required and forbidden" in page.text
-    assert cli("report", "new.sleec", "--base", "none").code == 2
+    ran = cli("report", "new.sleec", "--base", "none")
+    assert ran.code == 2
+    assert "--base none is neither a file nor a version in git" in ran.err
 
 
 def test_the_page_shows_what_a_certificate_proves(cli: Cli) -> None:
