@@ -79,6 +79,10 @@ class RawMessage:
     fields: Mapping[str, object]
 
 
+class LostMessages(MalformedObservation):
+    """Instead of observations, a line has the number of messages that the recorder lost."""
+
+
 Observation = Union[Entered, Reported, Occurred, Executed]
 """What an audit compares with the rules. Times are exact numbers of seconds, from 0 on."""
 
@@ -174,7 +178,7 @@ def observation_of(value: object) -> Observation | RawMessage:
     time = _time(value)
     found = [key for key in _KEYS if key in value]
     if not found and type(value.get("lost")) is int:
-        raise MalformedObservation(f"the recorder lost {value['lost']:,} messages before the time {raw_text(time)}")
+        raise LostMessages(f"the recorder lost {value['lost']:,} messages before the time {raw_text(time)}")
     if len(found) != 1:
         others = [represent(key) for key in value if key not in ("time", "topic", "type")]
         what = (

@@ -43,6 +43,13 @@ def test_an_unreadable_line_is_an_item_with_its_place(tmp_path: Path) -> None:
     assert [item for _, item in reader.read(position)] == [last]
 
 
+def test_a_recorder_may_have_lost_the_first_messages(tmp_path: Path) -> None:
+    (_, loss), (_, first) = log(tmp_path, '{"time": 0, "lost": 3}\n' + LINES[1]).read()
+    assert isinstance(loss, Unreadable)
+    assert loss.message == "the recorder lost 3 messages before the time 0"
+    assert first == Occurred(1, "E")
+
+
 def test_a_half_written_last_line_is_read_again_later(tmp_path: Path) -> None:
     reader = log(tmp_path, LINES[0] + LINES[1][:9])
     (_, _), (position, item) = reader.read()
