@@ -201,7 +201,6 @@ STATUS = "/open_curtains/_action/status"
         ("/user", {"state": {"undressed": "yes"}}),
         ("/user", {"state": {"undressed": [0.0] * 1_000_000}}),
         ("/user", {"state": {"undressed": True}}),
-        ("/user", {"state": {"undressed": math.inf}}),
         ("/user", {"state": {"undressed": 10**5000}}),
         ("/user", {"state": {"undressed": b"1"}}),
         ("/user", 5),
@@ -239,6 +238,17 @@ def test_unknown_values_are_not_problems(tmp_path: Path) -> None:
     robot.send("/request", {"data": "curtains"})
     robot.end()
     assert [report.kind for report in robot.received] == ["undetermined"]
+    assert not robot.problems
+
+
+@pytest.mark.parametrize(("value", "kinds"), [(math.inf, []), (-math.inf, ["missed"])])
+def test_infinity_is_a_value_that_a_condition_compares(tmp_path: Path, value: float, kinds: list[str]) -> None:
+    robot = mission(tmp_path, MAPPING)
+    robot.send("/user", {"state": {"undressed": value}})
+    robot.send("/request", {"data": "curtains"})
+    robot.advance(20)
+    robot.end()
+    assert [report.kind for report in robot.received] == kinds
     assert not robot.problems
 
 
