@@ -127,10 +127,8 @@ def _rule(rule: Rule, before: Part | None) -> Part:
 
 
 def _finding(identifier: str, finding: Finding, before: Part | None) -> Part:
-    if before is not None and isinstance(before.of, Finding) and _shown(before.of) == _shown(finding):
-        return Part(finding, before.content, finding.span)
     content = {"id": identifier, **finding_of_page(finding), "repairs": finding.code in OPERATORS}
-    return Part(finding, content, finding.span)
+    return Part(finding, before.content if before is not None and before.content == content else content, finding.span)
 
 
 def _verdict(outcome: CheckedRuleset, findings: Sequence[Finding]) -> str:
@@ -153,19 +151,6 @@ def _check(result: CheckResult) -> Json:
         "verdict": VERDICTS[type(verdict)],
         "reason": verdict.why if isinstance(verdict, Unknown) else result.reason,
     }
-
-
-def _shown(finding: Finding) -> tuple[object, ...]:
-    """The fields of `finding_of_page`."""
-    return (
-        finding.code,
-        finding.severity,
-        finding.message,
-        finding.domains,
-        finding.help,
-        finding.witness,
-        finding.timeline,
-    )
 
 
 @lru_cache(maxsize=20_000)
