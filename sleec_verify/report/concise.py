@@ -37,7 +37,7 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
         for name, why in outcome.unlisted:
             yield joined(" ", [f"{rules.path}:", palette("note", f"note[{name}]"), why])
         for name, why in outcome.undecided:
-            yield f"{rules.path}: {palette('unknown', f'unknown[{name}]')} {why}"
+            yield joined(" ", [f"{rules.path}:", palette("unknown", f"unknown[{name}]"), why])
     readings = sorted({outcome.ruleset.reading for outcome in checked(outcomes) if not outcome.settings})
     summary = in_short(outcomes)
     yield sentence("{summary} (reading {reading})", summary=summary, reading=listed(readings)) if readings else summary

@@ -50,7 +50,7 @@ def _concise(ruleset: Ruleset, context: Context, answer: Entailment, palette: Pa
     for finding in answer.conflicts:
         place = ruleset.source.place(finding.span)
         label = palette(finding.severity, f"{finding.severity}[{finding.code}]")
-        yield f"{ruleset.source.path}:{place.line}:{place.column}: {label} {finding.message}"
+        yield joined(" ", [f"{ruleset.source.path}:{place.line}:{place.column}:", label, finding.message])
 
 
 def _json(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palette) -> Iterator[str]:

@@ -42,9 +42,11 @@ def render(outcomes: Sequence[Outcome], palette: Palette) -> Iterator[str]:
             yield from finding_lines(finding, finding.source or source, palette, outcome.repairs_of(finding))
             yield ""
         for name, why in outcome.unlisted:
-            yield from (f"{source.path}: {palette('note', f'note[{name}]')} {why}", "")
+            yield joined(" ", [f"{source.path}:", palette("note", f"note[{name}]"), why])
+            yield ""
         for name, why in outcome.undecided:
-            yield from (f"{source.path}: {palette('unknown', f'unknown[{name}]')} {why}", "")
+            yield joined(" ", [f"{source.path}:", palette("unknown", f"unknown[{name}]"), why])
+            yield ""
         if outcome.audit is not None:
             from sleec_verify.report import audit
 

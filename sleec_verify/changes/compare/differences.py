@@ -193,9 +193,9 @@ def _notes(comparison: Comparison) -> Iterator[str]:
     old, new = comparison.sides["old"].stated, comparison.sides["new"].stated
     if comparison.vocabulary.whole and old.syntax != new.syntax:
         names = ", ".join(comparison.vocabulary.whole)
-        yield f"the DSL has only whole numbers, so only whole values of {names} are compared"
+        yield sentence("the DSL has only whole numbers, so only whole values of {names} are compared", names=names)
     if speaks_of_traces(old) or speaks_of_traces(new):
-        yield (
+        yield sentence(
             "the comparison covers the responses of each rule; it does not cover their consequences through other rules"
         )
     if old.is_timed or new.is_timed:
@@ -203,4 +203,4 @@ def _notes(comparison: Comparison) -> Iterator[str]:
 
         one, other = ([s for s in ruleset.statements if isinstance(s, Claim)] for ruleset in (old, new))
         if any(claim not in other for claim in one) or any(claim not in one for claim in other):
-            yield "concerns or purposes changed; they do not change what the rules require"
+            yield sentence("concerns or purposes changed; they do not change what the rules require")

@@ -149,6 +149,39 @@ def test_diff_and_entail_answer_in_a_language(language: Language, words: tuple[s
         assert cli(*command, "--format", "json", "--language", language).out == english
 
 
+PATIENCE = """\
+MEASURE patience: integer
+RULE a WHEN Fall THEN CallNurse WITHIN patience minutes
+RULE b WHEN Alarm THEN NOT CallNurse WITHIN 3 minutes
+"""
+
+
+@pytest.mark.parametrize(
+    ("language", "why", "note"),
+    [
+        ("it", "niente limita `patience`", "il confronto riguarda le risposte di ogni regola"),
+        ("de", "nichts begrenzt `patience`", "der Vergleich umfasst die Reaktionen jeder Regel"),
+    ],
+)
+def test_what_is_unknown_or_left_out_is_said_in_a_language(language: Language, why: str, note: str, cli: Cli) -> None:
+    files = {"old.sleec": PATIENCE.replace("3", "4"), "a.sleec": PATIENCE}
+    for form in ("full", "concise"):
+        ran = cli("check", "a.sleec", "--format", form, "--language", language, files=files)
+        assert ran.out.count(why) == 3
+        assert "nothing bounds" not in ran.out
+    ran = cli("diff", "old.sleec", "a.sleec", "--language", language)
+    assert why in ran.out
+    assert note in ran.out
+
+
+@pytest.mark.parametrize("form", ["full", "concise"])
+def test_entail_says_a_conflict_in_a_language(form: str, cli: Cli) -> None:
+    situation = ("--when", "UserCalls", "--given", "Asleep")
+    ran = cli("entail", "a.sleec", *situation, "--language", "de", "--format", form, files={"a.sleec": CLASH})
+    assert "contradict" not in ran.out
+    assert "wider" in ran.out
+
+
 @pytest.mark.parametrize(
     "error", ["Undecided", "OutOfBudget", "TooEntangled", "NotCalculated", "TooLarge", "Undecidable"]
 )
