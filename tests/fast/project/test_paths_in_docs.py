@@ -28,6 +28,13 @@ def test_paths_exist(page):
     assert not missing
 
 
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_our_distributions_are_not_installed_from_a_package_index(page):
+    """They are not on one, so a package of their name there is not ours."""
+    commands = re.findall(r"pip install [^`\n]*\bsleec-(?:runtime|verify)\b[^`\n]*", page.read_text(encoding="utf-8"))
+    assert all("--no-index" in command for command in commands), commands
+
+
 @pytest.mark.parametrize("page", ENGINES)
 def test_modules_exist(page):
     modules = {found[2] for found in MODULE.finditer((ROOT / "docs" / page).read_text(encoding="utf-8"))}
