@@ -23,7 +23,7 @@ from sleec_verify.cli import exits, options
 @click.option("--no-browser", is_flag=True, help="Only print the address; do not open it in the browser.")
 @options.max_size
 def command(path: str, port: int, no_browser: bool) -> int:
-    """Open a page on which you write the rules in FILE and try them on situations. Press Ctrl-C to stop.
+    """Open a page on which you write the rules in FILE and try them in situations. Press Ctrl-C to stop.
 
     Only this machine can open the page, and only with the address that the command prints.
     """

@@ -109,3 +109,14 @@ def test_every_page_is_in_the_navigation() -> None:
     navigation = (ROOT / "mkdocs.yml").read_text(encoding="utf-8").partition("\nnav:")[2]
     for path in [*DOCS.rglob("*.md"), *(DOCS / name for name in copied.pages())]:
         assert re.search(rf"[ :]{re.escape(str(path.relative_to(DOCS)))}$", navigation, re.M), path
+
+
+def test_a_decision_has_one_title() -> None:
+    """In the navigation and in the list of decisions as on its page."""
+    navigation = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
+    index = (DOCS / "decisions" / "index.md").read_text(encoding="utf-8")
+    for path in sorted((DOCS / "decisions").glob("0*.md")):
+        title = path.read_text(encoding="utf-8").partition("\n")[0].removeprefix("# ")
+        number, _, decision = title.partition(". ")
+        assert f'- "{title}": decisions/{path.name}\n' in navigation
+        assert f"| [{number}]({path.name}) | {decision} | " in index
