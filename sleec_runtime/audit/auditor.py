@@ -90,7 +90,7 @@ class Auditor:
         if observation.time > now:
             found = self._advance(observation.time)
         elif observation.time < now:
-            detail = f"it is {float(now - observation.time):g} seconds earlier than the one before it"
+            detail = f"an observation is {float(now - observation.time):g} s earlier than the one before it"
             found = [Deviation("out-of-order", observation.time, detail=detail)]
         if isinstance(observation, Reported):
             found += self._report(observation)
@@ -158,7 +158,7 @@ class Auditor:
                 new[name] = None if value is None else fit(name, value, self.ruleset.measures.get(name))
             except WrongType as error:
                 new[name] = None
-                found.append(Deviation("wrong-value", self.moment.time, name=name, detail=str(error)))
+                found.append(Deviation("wrong-value", self.moment.time, name=name, detail=error.message))
         changed = {name for name, value in new.items() if self.moment.conditions.get(name) != value}
         if not changed:
             return found

@@ -128,13 +128,15 @@ def write_loss(time: Rational, count: int) -> str:
 def read_line(line: str | bytes) -> Observation | RawMessage:
     """The observation in one line of JSON. Raises MalformedObservation."""
     try:
-        value = read_json(line if isinstance(line, str) else line.decode("utf-8-sig"))
+        value = read_json((line if isinstance(line, str) else line.decode("utf-8-sig")).rstrip())
     except UnicodeDecodeError:
         raise MalformedObservation("it is not UTF-8 text") from None
     except RecursionError:
         raise MalformedObservation("it is nested too deeply") from None
     except (ValueError, ArithmeticError) as problem:
-        raise MalformedObservation(f"it is not JSON: {problem}", _FORM) from None
+        column = getattr(problem, "colno", None)
+        why = problem if column is None else f"{problem.msg}: column {column}"  # type: ignore[union-attr]
+        raise MalformedObservation(f"it is not JSON: {why}", _FORM) from None
     return observation_of(value)
 
 
@@ -181,9 +183,9 @@ def observation_of(value: object) -> Observation | RawMessage:
         raise LostMessages(f"the recorder lost {value['lost']:,} messages before the time {raw_text(time)}")
     if len(found) != 1:
         others = [represent(key) for key in value if key not in ("time", "topic", "type")]
-        what = (
-            f"it has the keys {listed(found)}" if found else f"unknown key {others[0]}" if others else "it says nothing"
-        )
+        what = f"it has the keys {listed(found)}" if found else "it has no content"
+        if others and not found:
+            what = f"unknown key {others[0]}"
         raise MalformedObservation(f"{what} at the time {raw_text(time)}", _FORM)
     (key,) = found
     content = value[key]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import wraps
+from math import isnan, nan
 from typing import Any, TypeVar, cast
 
 import click
@@ -103,10 +104,13 @@ class Seconds(click.FloatRange):
         super().__init__(min=0, min_open=min_open, max=most)
 
     def convert(self, value: Any, parameter: click.Parameter | None, context: click.Context | None) -> float:
-        seconds = float(super().convert(value, parameter, context))
-        if seconds != seconds:  # not a number
-            self.fail(f"{value} is not a number of seconds", parameter, context)
-        return seconds
+        try:
+            seconds = float(value)
+        except ValueError:
+            seconds = nan
+        if isnan(seconds):
+            self.fail(f"{value!r} is not a number of seconds", parameter, context)
+        return float(super().convert(seconds, parameter, context))
 
 
 def _within(context: click.Context, parameter: click.Parameter, seconds: float | None) -> None:

@@ -254,6 +254,15 @@ def test_an_observation_out_of_order_counts_as_simultaneous() -> None:
     assert found == [("out-of-order", 4, "")]
 
 
+def test_a_wrong_value_and_a_wrong_order_are_said_in_a_sentence() -> None:
+    auditor = Auditor(parse(CURTAINS))
+    auditor.observe(Occurred(5, "CurtainOpenRequest"))
+    (late, wrong) = auditor.observe(Reported(4, {"UserUndressed": 3}))
+    assert message(late) == "at 4 s, an observation is 1 s earlier than the one before it"
+    value = "the value of `UserUndressed` does not fit: UserUndressed is a condition, true or false; got 3"
+    assert message(wrong) == f"at 5 s, {value}"
+
+
 def test_wrong_arguments_are_refused() -> None:
     for tolerance in (-1, float("nan"), float("inf"), 10**13, True, "1"):
         with pytest.raises(WrongType):

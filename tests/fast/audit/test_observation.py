@@ -56,7 +56,8 @@ def test_times_are_exact() -> None:
     ("line", "message"),
     [
         ("", "it is not JSON"),
-        ('{"time": 1, "event": "A', "it is not JSON"),
+        ('{"time": 1, "event": "A', "it is not JSON: Unterminated string starting at: column 22"),
+        ('{"time": 1, "event": "A"\r\n', "it is not JSON: Expecting ',' delimiter: column 25"),
         ('{"time": -0.5, "event": "A"}', "got -0.5"),
         ('{"time": -25e-1, "event": "A"}', "got -2.5"),
         ('{"time": -1e300, "event": "A"}', "got -1e+300"),
@@ -77,7 +78,7 @@ def test_times_are_exact() -> None:
         ('{"time": Infinity, "event": "A"}', "got inf"),
         ('{"time": 1e999999999, "event": "A"}', '"time" is a number of seconds'),
         ('{"time": 1e99999999999999999999999, "event": "A"}', "it is"),
-        ('{"time": 1}', "it says nothing at the time 1"),
+        ('{"time": 1}', "it has no content at the time 1"),
         ('{"time": 1, "event": "A", "executed": "B"}', "it has the keys event, executed"),
         ('{"time": 1, "event": ["A"]}', '"event" is a name'),
         ('{"time": 1, "event": "A", "evnt": "A"}', "unknown key 'evnt'"),

@@ -64,3 +64,4 @@ def test_bad_times(cli: Cli, command: str, seconds: str) -> None:
     done = cli(command, "x.sleec", "--timeout", seconds)
     assert done.code == 2
     assert "--timeout" in done.err
+    assert ("is not a number of seconds" in done.err) == (seconds in ("nan", "soon"))
