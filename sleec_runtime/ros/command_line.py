@@ -148,8 +148,8 @@ def _parser() -> argparse.ArgumentParser:
             type=float,
             default=0,
             metavar="SECONDS",
-            help="over DDS, hold messages so long, and put them in the order in which they were sent; for senders "
-            "whose clocks agree, as on one computer (default: 0)",
+            help="over DDS, hold each message for this time, and order messages by the time at which they were sent; "
+            "for senders whose clocks agree, as on one computer (default: 0)",
         )
     return parser
 

@@ -39,7 +39,8 @@ class CheckpointFile:
         except FileNotFoundError:
             return None
         except (OSError, ValueError, MalformedMessage) as error:
-            reason = getattr(error, "strerror", None) or error
+            # The hint of a malformed message is for its sender.
+            reason = error.message if isinstance(error, MalformedMessage) else getattr(error, "strerror", None) or error
             raise SnapshotRefused(
                 f"the checkpoint {self.path} cannot be read: {reason}", "move the file away to start without it"
             ) from None

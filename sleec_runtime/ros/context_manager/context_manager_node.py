@@ -51,7 +51,8 @@ class ContextManagerNode:
     ) -> None:
         if sleec.chains:
             raise SleecError(
-                "nodes do not trigger rules by responses", "load the rules with chains=False, and start such rules"
+                "nodes do not trigger rules by responses",
+                "load the rules with chains=False, and publish the triggers of such rules",
             )
         heartbeat = seconds_of(heartbeat, "heartbeat")
         sleec.code.is_partial = True

@@ -261,8 +261,10 @@ def test_the_context_and_the_domain_survive_a_restart(tmp_path: Path) -> None:
 def test_a_malformed_checkpoint_is_refused(text: str, tmp_path: Path) -> None:
     path = tmp_path / "checkpoint.json"
     path.write_bytes(text.encode("latin-1"))
-    with pytest.raises(SnapshotRefused, match="checkpoint"):
+    with pytest.raises(SnapshotRefused, match="checkpoint") as refused:
         Robot(NURSE, checkpoint=path)
+    assert refused.value.hint == "move the file away to start without it"
+    assert "send " not in refused.value.message
 
 
 def test_a_checkpoint_of_other_rules_is_refused(tmp_path: Path) -> None:
