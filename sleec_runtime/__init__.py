@@ -84,7 +84,7 @@ def load(
 
     `domain` leaves out the rules of other domains. `reading`, ``cascade`` or ``priority``, overrides that of the file.
     In `strict` mode, a decision that depends on unreported conditions raises an error; otherwise they are false
-    (Definition 1 of the paper). `clock`, `chains`, `on_error` and `strict_times` are for rules with times: see `Sleec`.
+    (Definition 1 of the paper). `clock`, `chains`, `on_error` and `strict_times` are for rules with time: see `Sleec`.
 
     `certificate` is the folder of a certificate, which must prove these rules free of conflict in this reading and
     domain, with or without `chains`. With `key`, the file of a public key, it must be signed with it. With

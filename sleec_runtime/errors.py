@@ -83,7 +83,7 @@ class CertificateRefused(SleecError):
 
 
 class UnsupportedTimes(SleecError):
-    """Rules with times or relations, given to a command or mode that does not support them. `lines` are the lines of
+    """Rules with time or relations, given to a command or mode that does not support them. `lines` are the lines of
     the constructs."""
 
     def __init__(self, message: str, lines: Sequence[int], hint: str | None = None) -> None:

@@ -35,7 +35,7 @@ def obligation(name: str, completes: bool = True) -> Callable[[F], F]:
     """Marks a function or method as the implementation of obligation `name`: impl(O) of the paper, Section 3.2.
 
     Recordings see each call of it. Set `completes` to False if the callable only starts something: the obligation is
-    then fulfilled by ``sleec.completed(name)``. This matters for rules with times.
+    then fulfilled by ``sleec.completed(name)``. This matters for rules with time.
     """
 
     def mark(function: F) -> F:

@@ -35,7 +35,7 @@ class Instance:
     """The layers, the methods of rules, and the callables of obligations.
 
     The runtime holds its lock for changes, but not to look up variants. `takes_time` are the obligations that are not
-    fulfilled when their callables return. `fitting` caches which arguments fit which code, for rules with times.
+    fulfilled when their callables return. `fitting` caches which arguments fit which code, for rules with time.
     If it `is_partial`, other processes have the code of some rules, so that these may come into force without code.
     """
 

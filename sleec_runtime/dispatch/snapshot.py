@@ -48,7 +48,7 @@ class Snapshot:
 
     `number` counts the changes. `mark` is a new object if a change concerns a name in a `NEVER`: a plan is valid as
     long as the mark is the same. `rows` are the rows of `TriggerOutcomes`, for fast dispatch.
-    `ready_plans` has the plans of rules without times that have passed all checks, by trigger.
+    `ready_plans` has the plans of rules without time that have passed all checks, by trigger.
     """
 
     __slots__ = ("_memos", "_outcomes", "_values", "index", "mark", "number", "ready_plans", "rows")

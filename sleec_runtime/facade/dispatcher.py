@@ -1,4 +1,4 @@
-"""The dispatcher of an instance, for rules without times."""
+"""The dispatcher of an instance, for rules without time."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ State = Callable[[], tuple[Snapshot, Instance]]
 class Dispatcher:
     """Answers the triggers of an instance. The methods are those of `Sleec`, with checked arguments.
 
-    This one is for rules without times: it executes all obligations at once, so that nothing is pending.
+    This one is for rules without time: it executes all obligations at once, so that nothing is pending.
     `TimedDispatcher` extends it.
     """
 

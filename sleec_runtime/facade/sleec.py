@@ -41,7 +41,7 @@ class Sleec(Host):
     out the rules of other domains. `reading` overrides the reading of the ruleset. In `strict` mode, a decision that
     depends on unreported conditions raises UndeterminedDecision; otherwise they are false (Definition 1).
 
-    For rules with times (docs/runtime.md): `clock` measures their windows; the default is the clock of the computer,
+    For rules with time (docs/runtime.md): `clock` measures their windows; the default is the clock of the computer,
     with a thread while something is pending. With `chains`, a response that is done is an event, which triggers the
     rules of that name. `on_error` gets each `Failure` of what the clock starts; without it, failures are logged.
     Constructs that the runtime does not enforce cause a NotEnforced warning, or UnsupportedTimes with `strict_times`.
@@ -348,11 +348,11 @@ class Sleec(Host):
     def activate_globally(self) -> GlobalActivation:
         """Starts the mode of the paper (Section 4): the layers of the active clauses are globally active, so that
         methods can be called without a trigger. `GlobalActivation` documents its cost and its limits. Raises
-        UnsupportedTimes for rules with times, and as `GlobalActivation.start`."""
+        UnsupportedTimes for rules with time, and as `GlobalActivation.start`."""
         return GlobalActivation(self).start()
 
     def _dispatcher_for(self, index: RuleIndex, current: Dispatcher) -> Dispatcher:
-        """The dispatcher for `index`: the `current` one, or a timed one from the first rules with times on. Raises
+        """The dispatcher for `index`: the `current` one, or a timed one from the first rules with time on. Raises
         UnsupportedTimes."""
         if not index.ruleset.is_timed and not self._chains:
             return current
@@ -395,6 +395,6 @@ class Sleec(Host):
         self._watch_bound(instance, index)
         dispatcher = self._dispatcher_for(index, self._dispatcher)
         # In one step, so that a signal handler sees all of it or nothing. A dispatch reads `_snapshot` before
-        # `_dispatcher`, so that a dispatcher without a clock never gets rules with times.
+        # `_dispatcher`, so that a dispatcher without a clock never gets rules with time.
         vars(self).update(_snapshot=after, _instance=instance, _demand=demand, _dispatcher=dispatcher)
         self._tell(before, after, index.ruleset.rules)

@@ -1,4 +1,4 @@
-"""The dispatcher for rules with times: a scheduler, and its clock."""
+"""The dispatcher for rules with time: a scheduler, and its clock."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from sleec_runtime.timed.scheduler import Scheduler
 
 
 class TimedDispatcher(Dispatcher):
-    """Dispatches rules with times. Without a `clock` it has its own `MonotonicClock`, which `close` stops.
+    """Dispatches rules with time. Without a `clock` it has its own `MonotonicClock`, which `close` stops.
 
     With `chains`, a response is an event that triggers rules. `on_error` gets each failure of what the clock starts.
     """

@@ -7,7 +7,7 @@ from sleec_runtime.model import Ruleset, literals
 
 
 def managed_triggers(ruleset: Ruleset) -> frozenset[str]:
-    """The triggers of rules with times, and those of rules that share obligations with them, directly or through
+    """The triggers of rules with time, and those of rules that share obligations with them, directly or through
     constraints. A deadline or prohibition of the former may decide about the latter. O(triggers * size of the rules).
     """
     named: dict[str, set[str]] = {}

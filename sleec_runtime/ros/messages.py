@@ -116,7 +116,7 @@ class Executed(Message):
 
 @dataclass(frozen=True, kw_only=True)
 class Start(Message):
-    """The Context Manager starts an obligation of a rule with times. It repeats the message until it is completed."""
+    """The Context Manager starts an obligation of a rule with time. It repeats the message until it is completed."""
 
     topic = Topic("/obligations", depth=100)
     manager: str

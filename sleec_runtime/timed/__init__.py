@@ -1,1 +1,1 @@
-"""Rules with times: clocks, pending obligations, and timer events. Only rulesets with times import this room."""
+"""Rules with time: clocks, pending obligations, and timer events. Only rulesets with time import this room."""

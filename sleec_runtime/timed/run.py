@@ -1,4 +1,4 @@
-"""The run of a dispatch of rules with times: which units run, in which order, and with which results."""
+"""The run of a dispatch of rules with time: which units run, in which order, and with which results."""
 
 from __future__ import annotations
 

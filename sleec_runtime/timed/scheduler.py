@@ -1,4 +1,4 @@
-"""The scheduler of rules with times.
+"""The scheduler of rules with time.
 
 A dispatch decides, checks and records its tasks in one change of the ledger, and runs code outside of it. So no other
 dispatch, by a trigger or by the clock, ever sees a part of them.

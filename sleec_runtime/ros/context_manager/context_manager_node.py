@@ -30,7 +30,7 @@ HEARTBEAT = 1.0
 class ContextManagerNode:
     """Keeps the context of the robot, and tells the tasks which layers are active. A robot has one.
 
-    The rules and their options are those of `sleec`, which belongs to this node. It runs the rules with times: see
+    The rules and their options are those of `sleec`, which belongs to this node. It runs the rules with time: see
     `DeadlineManager`. Each `heartbeat` seconds, the node shows that it is alive. This is at most half of the `timeout`
     of the tasks. After a restart, the node continues with what is in the file `checkpoint`: the domain, the reported
     conditions, and the pending obligations.
@@ -83,10 +83,10 @@ class ContextManagerNode:
         self._save()
 
     def subscribe(self, topic: str | Topic, trigger: str) -> None:
-        """Takes each message on `topic` as an occurrence of `trigger`, of a rule with times. Tasks subscribe to other
+        """Takes each message on `topic` as an occurrence of `trigger`, of a rule with time. Tasks subscribe to other
         triggers. A topic that is given by its name has the type ``std_msgs/msg/Empty``. Raises UnknownTrigger."""
         if trigger not in self.deadlines.triggers:
-            raise UnknownTrigger(trigger, self.deadlines.triggers, "give a trigger of rules with times")
+            raise UnknownTrigger(trigger, self.deadlines.triggers, "give a trigger of rules with time")
         topic = topic if isinstance(topic, Topic) else Topic(topic, EMPTY)
         self._node.subscribe(topic, partial(self.deadlines.occur, trigger))
 

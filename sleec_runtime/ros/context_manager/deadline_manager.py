@@ -1,4 +1,4 @@
-"""Rules with times across nodes: their deadlines are in the process of the Context Manager, and only there."""
+"""Rules with time across nodes: their deadlines are in the process of the Context Manager, and only there."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ MOST_ARGUMENTS = Start.max_size - 10_000
 
 
 class DeadlineManager:
-    """Decides the triggers of rules with times, measures the windows, and starts obligations by messages.
+    """Decides the triggers of rules with time, measures the windows, and starts obligations by messages.
 
     A message is repeated with each heartbeat until a task completes the obligation or its window has closed. A task
     executes it once. `save` is called after each change, before the message is sent.
@@ -60,7 +60,7 @@ class DeadlineManager:
         self._node.listen(Completed, self._complete)
 
     def occur(self, trigger: str, arguments: Mapping[str, Any]) -> None:
-        """A trigger of a rule with times occurs. Raises as `Sleec.trigger`, and MalformedMessage for arguments that no
+        """A trigger of a rule with time occurs. Raises as `Sleec.trigger`, and MalformedMessage for arguments that no
         message can carry to the tasks. Reports this on /executed."""
         arrived = time.time()
         try:

@@ -1,4 +1,4 @@
-"""The obligations of rules with times, which the Context Manager starts in the process of a task."""
+"""The obligations of rules with time, which the Context Manager starts in the process of a task."""
 
 from __future__ import annotations
 

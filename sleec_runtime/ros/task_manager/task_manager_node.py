@@ -93,13 +93,13 @@ class TaskManagerNode:
         without a rule in this node.
         """
         if trigger not in self._triggers:
-            hint = "give the trigger of a rule of this node; a Context Manager subscribes to those of rules with times"
+            hint = "give the trigger of a rule of this node; a Context Manager subscribes to those of rules with time"
             raise UnknownTrigger(trigger, self._triggers, hint)
         topic = topic if isinstance(topic, Topic) else Topic(topic, EMPTY)
         self._node.transport.subscribe(topic, self._occurrences[trigger])
 
     def completed(self, obligation: str) -> None:
-        """An obligation of a rule with times is done, whose callable is marked ``completes=False``. Raises SleecError
+        """An obligation of a rule with time is done, whose callable is marked ``completes=False``. Raises SleecError
         if it is not under way."""
         self._obligations.complete(obligation)
 

@@ -1,4 +1,4 @@
-"""Rules with times across nodes: the Context Manager follows the windows, and tasks execute what it starts."""
+"""Rules with time across nodes: the Context Manager follows the windows, and tasks execute what it starts."""
 
 from __future__ import annotations
 

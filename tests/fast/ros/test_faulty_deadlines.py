@@ -1,4 +1,4 @@
-"""Rules with times under faults: each start runs at most once, and everything under way ends when messages arrive."""
+"""Rules with time under faults: each start runs at most once, and everything under way ends when messages arrive."""
 
 from __future__ import annotations
 
