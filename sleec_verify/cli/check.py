@@ -14,7 +14,7 @@ from sleec_verify.cli.cached_checks import cache_of_environment
 from sleec_verify.cli.cached_checks import results as kept_or_new
 from sleec_verify.cli.fix_option import FixCommand, identifiers
 from sleec_verify.cli.inputs import files, rulesets
-from sleec_verify.cli.output import complain, report, tell
+from sleec_verify.cli.output import complain, report, tell, tell_written
 from sleec_verify.encoding.budget import limited
 from sleec_verify.report import FORMATS
 from sleec_verify.report.outcome import CheckedRuleset, Outcome, UnusableInput, checked
@@ -152,7 +152,8 @@ def command(
         if pictures is not None:
             from sleec_verify.cli.pictures import write_pictures
 
-            tell(f"{pictures}: {counted(write_pictures(list(checked(outcomes)), pictures, language), 'picture')}")
+            number = write_pictures(list(checked(outcomes)), pictures, language)
+            tell_written(pictures, counted(number, "picture"), language)
         if form == "full" and output is None and sys.stdout.isatty():
             _hint(list(checked(outcomes)))
         if any(isinstance(outcome, UnusableInput) for outcome in outcomes):

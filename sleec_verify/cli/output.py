@@ -32,7 +32,7 @@ def report(outcomes: Sequence[Outcome], form: str, output: str | None, language:
     from sleec_verify.report.outcome import in_short
 
     write_whole(output, "".join(renderer(form)(outcomes, Palette(False, language))).encode("utf-8", "surrogateescape"))
-    tell(f"{output}: {in_short(outcomes)}")
+    tell_written(output, in_short(outcomes), language)
 
 
 def write(parts: Iterable[str]) -> None:
@@ -65,6 +65,14 @@ def note(message: str) -> None:
     from sleec_verify.report.palette import Palette
 
     tell(f"{Palette.of(sys.stderr)('note', 'note')}: {message}")
+
+
+def tell_written(path: str, what: str, language: Language) -> None:
+    """Say in a language what was written to a file or folder."""
+    from sleec_verify.wording.sentence import joined
+    from sleec_verify.wording.translation import translated
+
+    tell(translated(joined(": ", [path, what]), language))
 
 
 def tell(line: str) -> None:

@@ -14,7 +14,7 @@ from sleec_verify.cli import exits, options
 from sleec_verify.cli.cached_checks import cache_of_environment
 from sleec_verify.cli.cached_checks import results as kept_or_new
 from sleec_verify.cli.inputs import files, rulesets
-from sleec_verify.cli.output import complain, note_link, tell, write_data
+from sleec_verify.cli.output import complain, note_link, tell_written, write_data
 from sleec_verify.report.outcome import CheckedRuleset, UnusableInput, in_short
 from sleec_verify.results.finding import Severity
 from sleec_verify.results.internal_error import InternalError, internal_errors_of
@@ -89,7 +89,7 @@ def command(
         from sleec_verify.files.placement import write_whole
 
         write_whole(output, "".join(parts).encode("utf-8", "surrogateescape"))
-        tell(f"{output}: {in_short(outcomes)}")
+        tell_written(output, in_short(outcomes), language)
     if any(isinstance(one, UnusableInput) or _has_unusable_base(one) for one in contents):
         return exits.UNUSABLE
     return exits.code(

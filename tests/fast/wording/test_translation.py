@@ -194,3 +194,16 @@ def test_every_reason_for_an_unknown_answer_can_be_translated(error: str) -> Non
                 places.append(node)
                 assert not any(isinstance(one, (ast.Constant, ast.JoinedStr)) for one in node.args), (path, node.lineno)
     assert places
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("check", "a.sleec", "-o", "out.txt"),
+        ("check", "a.sleec", "--svg", "out.txt", "--format", "concise"),
+        ("report", "a.sleec", "-o", "out.txt", "--no-repairs"),
+    ],
+)
+def test_what_was_written_is_said_in_a_language(command: tuple[str, ...], cli: Cli) -> None:
+    ran = cli(*command, "--language", "de", files={"a.sleec": CLASH})
+    assert ran.err in ("out.txt: 1 Regelwerk: 2 Fehler, keine Warnungen, keine Hinweise\n", "out.txt: 3 Bilder\n")
