@@ -118,11 +118,12 @@ class Auditor:
     def finish(self, time: Rational | None = None) -> list[Deviation]:
         """The end of the mission, at `time` or with the last observation. Nothing can be observed after it.
 
-        A prohibition that is in force at the end was kept. An obligation whose window has not closed is ``open``.
+        A prohibition that is in force at the end was kept. What is ``open``: an obligation whose window has not closed,
+        and a constraint that an event within the tolerance could still fulfil.
         """
         found = self.advance(self.moment.time if time is None else time)
         found += self._close()
-        found += self.constraints.flush()
+        found += self.constraints.flush(self.moment.time)
         for duty in self.duties:
             dues = tuple(duty.task.dues())
             is_open = any(due.met is None and not due.obligation.negated for due in dues)

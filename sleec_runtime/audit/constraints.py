@@ -8,8 +8,9 @@ the values of their moment.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 
-from sleec_runtime.audit.deviation import Deviation
+from sleec_runtime.audit.deviation import BREACHES, Deviation
 from sleec_runtime.audit.domain_rules import DomainRules
 from sleec_runtime.audit.moment import Moment
 from sleec_runtime.evaluation.formula_truth import Situation, truth, unreported
@@ -39,16 +40,19 @@ class ConstraintMonitor:
         if self.group and now > self.group[0].time + self.tolerance:
             yield from self.flush()
 
-    def flush(self) -> Iterator[Deviation]:
-        """The deviations of the present group, which ends: each constraint and relation once."""
+    def flush(self, end: Rational | None = None) -> Iterator[Deviation]:
+        """The deviations of the present group, which ends: each constraint and relation once. A breach takes precedence
+        over what is not known. The log ends at the time `end`, if it ends within the group: events may follow."""
         group, self.group = self.group, []
         found: dict[int, Deviation] = {}
         for moment in group:
-            for deviation in self._decide(moment, group):
-                found.setdefault(id(deviation.statement), deviation)
+            for deviation in self._decide(moment, group, end):
+                before = found.setdefault(id(deviation.statement), deviation)
+                if before.kind not in BREACHES and deviation.kind in BREACHES:
+                    found[id(deviation.statement)] = deviation
         yield from found.values()
 
-    def _decide(self, moment: Moment, group: Sequence[Moment]) -> Iterator[Deviation]:
+    def _decide(self, moment: Moment, group: Sequence[Moment], end: Rational | None = None) -> Iterator[Deviation]:
         rules = self._rules_of(moment.domain)
         own = moment.occurred | moment.executed
         occurred = set().union(*(one.occurred for one in group)) if own else own
@@ -63,7 +67,12 @@ class ConstraintMonitor:
                 others = occurred - moment.occurred, executed - moment.executed
                 if truth(watched.formula, rules.situation(moment, *others, watched.formula)) is value:
                     continue  # It does not depend on what happens in this moment.
-            yield deviation_of(watched.statement, watched.formula, moment, value, situation)
+            deviation = deviation_of(watched.statement, watched.formula, moment, value, situation)
+            if value is False and end is not None:
+                unfinished = rules.situation(moment, occurred, executed, watched.formula, is_over=False)
+                if truth(watched.formula, unfinished) is None:
+                    deviation = replace(deviation, kind="open", time=end)
+            yield deviation
 
 
 def deviation_of(

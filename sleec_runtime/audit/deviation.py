@@ -31,7 +31,7 @@ DeviationKind = Literal[
 - ``assumption``: an ASSUME does not hold.
 - ``unrequired``: the robot executed what no rule required. The rules do not forbid this.
 - ``undetermined``: it depends on values that were not reported.
-- ``open``: the mission ends before the window of an obligation closes.
+- ``open``: the mission ends before the window of an obligation closes, or before a constraint is decided.
 - ``unknown-name``: the ruleset does not have a name.
 - ``wrong-value``: a value does not fit its condition or measure, and counts as not reported.
 - ``out-of-order``: an observation is earlier than one before it, and counts as simultaneous with that one.

@@ -73,11 +73,19 @@ class DomainRules:
         return Situation(Context(frozenset(moment.occurred), moment.conditions), self.ruleset.measures, None)
 
     def situation(
-        self, moment: Moment, occurred: Collection[str], executed: Collection[str], formula: Formula
+        self,
+        moment: Moment,
+        occurred: Collection[str],
+        executed: Collection[str],
+        formula: Formula,
+        is_over: bool = True,
     ) -> Situation:
-        """The situation, in the open world, in which a formula about a moment with these events is decided."""
-        done = {name: name in executed for name in events_in(formula)}
-        return Situation(Context(frozenset(occurred), moment.conditions), self.ruleset.measures, None, done)
+        """The situation, in the open world, in which a formula about a moment with these events is decided. If the
+        moment is not over, the other events of the formula are unknown."""
+        names = events_in(formula)
+        done = {name: name in executed for name in names if is_over or name in executed}
+        context = Context(frozenset(occurred), moment.conditions)
+        return Situation(context, self.ruleset.measures, None, done, False if is_over else None)
 
 
 def events_in(formula: Formula) -> frozenset[str]:

@@ -78,6 +78,8 @@ def _of_statement(deviation: Deviation, statement: Requirement, at: str) -> str:
     text = f"`{_text(statement)}`"
     if deviation.kind == "undetermined":
         return f"{at}, {text} cannot be decided: {_unreported(deviation)}"
+    if deviation.kind == "open":
+        return f"{at}, the log ends within the tolerance, and {text} does not hold yet"
     if deviation.kind == "assumption":
         return f"{at}, the assumption {text} does not hold"
     since = (

@@ -55,13 +55,15 @@ class Situation:
     """What determines the truth of a formula.
 
     `absent` is the truth of an unreported condition: False in the closed world, None (unknown) in the open world.
-    `obliged` are the obligations with a fixed truth; the others are unknown.
+    `obliged` are the obligations with a fixed truth; the others are unknown. `other_event` is the truth of a trigger
+    that is not in the context: False, or None if it may still occur.
     """
 
     context: Context
     measures: Mapping[str, Measure] = field(default_factory=lambda: NO_MEASURES)
     absent: bool | None = False
     obliged: Mapping[str, bool] = field(default_factory=lambda: _NOTHING_OBLIGED)
+    other_event: bool | None = False
 
 
 def truth(formula: Formula, situation: Situation) -> bool | None:
@@ -125,7 +127,7 @@ def _atom(atom: Atom, situation: Situation) -> bool | None:
             return situation.absent
         return bool(fit(atom.name, value, None))
     if atom.kind == "trigger":
-        return atom.name in situation.context.triggers
+        return atom.name in situation.context.triggers or situation.other_event
     return situation.obliged.get(atom.name)
 
 

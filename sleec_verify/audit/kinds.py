@@ -136,7 +136,7 @@ KINDS: Mapping[str, FindingKind] = {
         707,
         "the log ends before a window closes",
         "An obligation was not executed before the end of the log, and its window was still open then. So it is not "
-        "known whether it was executed in time.",
+        "known whether it was executed in time. The same holds for a constraint or relation that requires an event.",
         "Record the mission until its windows have closed.",
         '{"time": 10, "event": "UserFell"}\n',
         '{"time": 10, "event": "UserFell"}\n{"time": 70, "executed": "CallNurse"}\n',

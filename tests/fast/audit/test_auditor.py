@@ -197,10 +197,53 @@ RULE halt WHEN Halt THEN Stop
         ("3 Sunny=true | 4 Dark=true", ["assumption"]),
         ("3 Sunny=true Dark=true", ["assumption"]),
         ("1 Dark=? | 2 Go | 2.1 !Drive", ["undetermined"]),
+        ("1 Dark=? | 2 Go | 2.1 !Drive | 2.2 Dark=true | 2.3 !Drive", ["constraint"]),
+        ("1 Dark=true | 2 Go | 2.1 !Drive | 2.2 Dark=? | 2.3 !Drive", ["constraint"]),
     ],
 )
 def test_constraints(text: str, expected: list[str]) -> None:
     assert [kind for kind, _, _ in kinds(CONSTRAINTS, f"0 Dark=false Sunny=false | {text}")] == expected
+
+
+TOGETHER = """
+OBLIGATION Drive, Honk, Stop
+NEVER Drive AND NOT Honk
+EXCLUSIVE Drive, Stop
+RULE go WHEN Go THEN Drive AND Honk
+"""
+WITNESS = """
+def_start
+  event Go
+  event Drive
+  event Honk
+def_end
+rule_start
+  R1 when Go then Drive
+  R2 when Go then Honk
+rule_end
+relation_start
+  witness Drive Honk
+relation_end
+"""
+
+
+@pytest.mark.parametrize("rules", [TOGETHER, WITNESS])
+def test_a_constraint_is_open_if_the_log_ends_before_an_event_that_it_requires(rules: str) -> None:
+    text = "1 Go | 1.1 !Drive"
+    assert kinds(rules, f"{text} | 1.2 !Honk", end=None) == []
+    assert kinds(rules, text, end=None) == [("open", 1.1, ""), ("open", 1.1, "Honk")]
+    assert kinds(rules, text, end=2) == [("open", 2, ""), ("open", 2, "Honk")]
+    assert [kind for kind, _, _ in kinds(rules, text, end=3)] == ["missed", "constraint"]
+    auditor = Auditor(parse(rules))
+    assert [message(one) for one in audit(auditor, mission(text), None) if one.statement is not None] == [
+        f"at 1.1 s, the log ends within the tolerance, and `{statement}` does not hold yet"
+        for statement in ("NEVER Drive AND NOT Honk" if rules is TOGETHER else "Drive WITNESSES Honk",)
+    ]
+
+
+def test_events_that_exclude_each_other_break_a_constraint_also_at_the_end_of_the_log() -> None:
+    found = kinds(TOGETHER, "1 Go | 1.1 !Drive !Honk | 1.2 !Stop", end=None)
+    assert [kind for kind, _, _ in found] == ["unrequired", "constraint"]
 
 
 CHAIN = """
