@@ -83,6 +83,14 @@ class LostMessages(MalformedObservation):
     """Instead of observations, a line has the number of messages that the recorder lost."""
 
 
+class MalformedValues(MalformedObservation):
+    """Some values of conditions cannot be read. In `rest`, they are unknown, and the others have their values."""
+
+    def __init__(self, message: str, hint: str, rest: Reported) -> None:
+        super().__init__(message, hint)
+        self.rest = rest
+
+
 Observation = Union[Entered, Reported, Occurred, Executed]
 """What an audit compares with the rules. Times are exact numbers of seconds, from 0 on."""
 
@@ -195,7 +203,7 @@ def observation_of(value: object) -> Observation | RawMessage:
     if unknown:
         raise MalformedObservation(f"unknown key {represent(unknown[0])}", _FORM)
     if key == "conditions":
-        return Reported(time, _conditions(content))
+        return _reported(time, content)
     if key == "domain" and content is None:
         return Entered(time, None)
     if not isinstance(content, str):
@@ -230,21 +238,19 @@ def _message(time: Rational, value: Mapping[str, Any], fields: object) -> RawMes
     return RawMessage(time, topic, kind, fields)
 
 
-def _conditions(content: object) -> dict[str, Value | None]:
+def _reported(time: Rational, content: object) -> Reported:
     if not isinstance(content, dict):
         raise MalformedObservation(f'"conditions" is an object with names and values; got {raw_text(content)}')
-    return {name: value_of(name, value) for name, value in content.items()}
-
-
-def value_of(name: str, value: object) -> Value | None:
-    """The value of a condition or measure as rules compare it. Raises MalformedObservation for what is none."""
-    if value is None or isinstance(value, (bool, str)):
-        return value
-    number = exact(value)
-    if number is None:
+    values: dict[str, Value | None] = {}
+    wrong = []
+    for name, value in content.items():
+        values[name] = value if isinstance(value, (bool, str)) else exact(value)
+        if value is not None and values[name] is None:
+            wrong.append(f"the value of {represent(name)} is {raw_text(value)}")
+    if wrong:
         hint = f"give true, false, {NUMBER}, or null if it is not known"
-        raise MalformedObservation(f"the value of {represent(name)} is {raw_text(value)}", hint)
-    return number
+        raise MalformedValues("; ".join(wrong), hint, Reported(time, values))
+    return Reported(time, values)
 
 
 def _fields_text(fields: Mapping[str, object]) -> str:

@@ -10,7 +10,12 @@ from sleec_runtime.support.messages import represent
 def raw_text(raw: object) -> str:
     """A value as the log has it. The readers of logs give exact numbers, whose `repr` is that of a Fraction."""
     number = exact(raw)
-    return represent(raw) if number is None else number_text(number, 40)
+    if number is not None:
+        return number_text(number, 40)
+    from decimal import Decimal
+
+    # A Decimal that is not exact is too large.
+    return f"{raw:.6g}" if isinstance(raw, Decimal) else represent(raw)
 
 
 def number_text(number: Rational, longest: int) -> str:

@@ -93,8 +93,10 @@ class Mission:
 
     def finish(self) -> MissionResult:
         """The end of the mission. Nothing can be read after it."""
-        for item in (*self._ordering.held(), *self._provisional):
+        for item in self._provisional:
             self._take(item)
+        for held in self._ordering.held():
+            self._take(held)
         self._add(self.auditor.finish())
         if not self.auditor.coverage.triggered:
             unused = sorted((self.topics | self._index) - self._mapping.topics - self._mapping.node_topics)
@@ -172,6 +174,8 @@ class Mission:
         if isinstance(item, Unreadable):
             hint = "" if item.hint is None else f" ({item.hint})"
             self._record(Record("unreadable", f"{item.place}: {item.message}{hint}", line=item.line))
+            if item.rest is not None:
+                self._observe(item.rest)
         elif isinstance(item, RawMessage):
             if len(self.topics) < _MOST_TOPICS:
                 self.topics.add(item.topic)

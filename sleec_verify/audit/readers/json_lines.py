@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO
 
-from sleec_runtime.audit.observation import LONGEST_LINE, LostMessages, read_line
+from sleec_runtime.audit.observation import LONGEST_LINE, LostMessages, MalformedValues, Reported, read_line
 from sleec_runtime.errors import MalformedObservation, UnreadableLog
 from sleec_runtime.support.messages import represent
 from sleec_verify.audit.readers.reader import Item, Position, Unreadable
@@ -66,7 +66,8 @@ class JsonLines:
         return offset, number
 
     def _item(self, line: bytes, number: int) -> Item | None:
-        is_loss = False
+        is_of_this_form = False
+        rest: Reported | None = None
         if len(line) > LONGEST_LINE:
             message, hint = f"it is longer than {LONGEST_LINE // 2**20} MiB", None
         elif line.isspace():
@@ -75,10 +76,12 @@ class JsonLines:
             try:
                 return read_line(line)
             except MalformedObservation as error:
-                message, hint, is_loss = error.message, error.hint, isinstance(error, LostMessages)
-        if number == 1 and not is_loss:
+                message, hint = error.message, error.hint
+                is_of_this_form = isinstance(error, (LostMessages, MalformedValues))
+                rest = error.rest if isinstance(error, MalformedValues) else None
+        if number == 1 and not is_of_this_form:
             raise UnreadableLog(f"{self.path} is not a log of JSON lines: in line 1, {message}", hint)
-        return Unreadable(f"line {number}", message, hint, number)
+        return Unreadable(f"line {number}", message, hint, number, rest)
 
 
 def _numbers(position: Position) -> tuple[int, int]:

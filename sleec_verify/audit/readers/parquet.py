@@ -10,7 +10,7 @@ from typing import Any
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from sleec_runtime.audit.observation import observation_of, read_json
+from sleec_runtime.audit.observation import MalformedValues, observation_of, read_json
 from sleec_runtime.errors import MalformedObservation, UnreadableLog
 from sleec_runtime.support.messages import represent
 from sleec_verify.audit.readers.reader import Item, Position, Unreadable
@@ -136,4 +136,5 @@ def _item(values: dict[str, Any], row: int) -> Item:
     except (ValueError, ArithmeticError, RecursionError) as problem:
         return Unreadable(f"row {row}", f"its JSON cannot be read: {problem}")
     except MalformedObservation as error:
-        return Unreadable(f"row {row}", error.message, error.hint)
+        rest = error.rest if isinstance(error, MalformedValues) else None
+        return Unreadable(f"row {row}", error.message, error.hint, rest=rest)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Protocol, Union, runtime_checkable
 
-from sleec_runtime.audit.observation import Observation, RawMessage
+from sleec_runtime.audit.observation import Observation, RawMessage, Reported
 from sleec_verify.results.json_values import Json
 
 Position = Json
@@ -15,12 +15,14 @@ Position = Json
 
 @dataclass(frozen=True)
 class Unreadable:
-    """A part of a log that cannot be read. `place` names it, such as ``line 12``; `line` is its line, if it is one."""
+    """A part of a log that cannot be read. `place` names it, such as ``line 12``; `line` is its line, if it is one.
+    `rest` is what can be read of it."""
 
     place: str
     message: str
     hint: str | None = None
     line: int | None = None
+    rest: Reported | None = None
 
 
 Item = Union[Observation, RawMessage, Unreadable]

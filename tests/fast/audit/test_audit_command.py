@@ -228,6 +228,20 @@ def test_a_log_that_changed_is_refused(cli: Cli) -> None:
     assert "has changed since the position was saved" in ran.err
 
 
+@pytest.mark.parametrize("options", [(), ("--max-lag", "5"), ("--state", "state.json")])
+@pytest.mark.parametrize("name", ["UserUndressed", "battery"])
+def test_only_the_values_that_cannot_be_read_are_unknown(name: str, options: tuple[str, ...], cli: Cli) -> None:
+    rules = f"MEASURE battery: number\n{RULES}RULE dock WHEN Low THEN Dock UNLESS battery > 5\n"
+    values = {"UserUndressed": "true", "battery": "9"} | {name: "NaN"}
+    text = ", ".join(f'"{key}": {value}' for key, value in values.items())
+    # At first, the line is half written.
+    log = f'{START}{{"time": 5, "conditions": {{{text}}}}}'
+    report(cli, log, *options, **{"rules.sleec": rules})
+    found = report(cli, f"{log}\n{REQUEST}{END}", *options, **{"rules.sleec": rules})
+    assert codes(found) == (["SLEEC706"] if name == "UserUndressed" else []) + ["SLEEC708"]
+    assert found["checks"][0]["verdict"] == "unknown"
+
+
 def test_several_logs_are_several_missions(cli: Cli) -> None:
     others = {"n.jsonl": START + FALL + END}
     ran = cli("audit", "m.jsonl", "n.jsonl", "--ruleset", "rules.sleec", files=files(START + REQUEST + OPEN, **others))

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from sleec_runtime.audit.observation import Occurred
+from sleec_runtime.audit.observation import Occurred, Reported
 from sleec_runtime.errors import UnreadableLog
 from sleec_verify.audit.readers import json_lines
 from sleec_verify.audit.readers.json_lines import JsonLines
@@ -48,6 +48,18 @@ def test_a_recorder_may_have_lost_the_first_messages(tmp_path: Path) -> None:
     assert isinstance(loss, Unreadable)
     assert loss.message == "the recorder lost 3 messages before the time 0"
     assert first == Occurred(1, "E")
+
+
+@pytest.mark.parametrize("value", ["NaN", "Infinity", "[1]", "{}", "1e1001", "1" * 1001])
+@pytest.mark.parametrize("first", ["", LINES[0]])
+def test_a_value_that_cannot_be_read_leaves_the_other_values_of_its_line(
+    first: str, value: str, tmp_path: Path
+) -> None:
+    line = f'{{"time": 1, "conditions": {{"Dark": true, "battery": {value}, "risk": null}}}}\n'
+    *_, (_, item) = log(tmp_path, first + line).read()
+    assert isinstance(item, Unreadable)
+    assert item.message.startswith("the value of 'battery' is ")
+    assert item.rest == Reported(1, {"Dark": True, "battery": None, "risk": None})
 
 
 def test_a_half_written_last_line_is_read_again_later(tmp_path: Path) -> None:

@@ -85,6 +85,8 @@ def test_times_are_exact() -> None:
         ('{"time": 1, "conditions": ["A"]}', '"conditions" is an object'),
         ('{"time": 1, "conditions": {"A": NaN}}', "the value of 'A' is nan"),
         ('{"time": 1, "conditions": {"A": [1]}}', "the value of 'A' is [1]"),
+        ('{"time": 1, "conditions": {"A": 1e1001}}', "the value of 'A' is 1e+1001"),
+        ('{"time": 1, "conditions": {"A": NaN, "B": 1, "C": {}}}', "the value of 'A' is nan; the value of 'C' is {}"),
         ('{"time": 1, "message": {}}', 'a "message" needs a "topic"'),
         ('{"time": 1, "topic": "/a", "message": 1}', '"message" is an object'),
         ('{"time": 1, "topic": "/a", "type": 3, "message": {}}', '"type" is the name'),

@@ -117,6 +117,13 @@ def test_unreadable_rows_are_items(tmp_path: Path) -> None:
     assert last == MISSION[0]
 
 
+def test_a_value_that_cannot_be_read_leaves_the_other_values_of_its_row(tmp_path: Path) -> None:
+    row = {"time": 1.0, "conditions": '{"Dark": true, "battery": NaN}'}
+    ((_, item),) = Parquet(write(tmp_path / "log.parquet", table([row]))).read()
+    assert isinstance(item, Unreadable)
+    assert item.rest == Reported(1, {"Dark": True, "battery": None})
+
+
 @pytest.mark.parametrize(
     ("content", "problem"),
     [
