@@ -140,12 +140,13 @@ class Auditor:
 
     def _enter(self, observation: Entered) -> list[Deviation]:
         domain = observation.domain
+        found: list[Deviation] = []
         if domain is not None and domain not in self.ruleset.domains:
-            return self._unknown("domain", domain)
-        if domain == self.moment.domain:
-            return []
-        found = self._close()
-        self.moment = Moment(self.moment.time, domain, self.moment.conditions)
+            found = self._unknown("domain", domain)
+            domain = self.moment.domain if observation.request else UNKNOWN_DOMAIN
+        if domain != self.moment.domain:
+            found += self._close()
+            self.moment = Moment(self.moment.time, domain, self.moment.conditions)
         return found
 
     def _report(self, observation: Reported) -> list[Deviation]:

@@ -12,10 +12,10 @@ from dataclasses import replace
 
 from sleec_runtime.audit.deviation import BREACHES, Deviation
 from sleec_runtime.audit.domain_rules import DomainRules
-from sleec_runtime.audit.moment import Moment
+from sleec_runtime.audit.moment import UNKNOWN_DOMAIN, Moment
 from sleec_runtime.evaluation.formula_truth import Situation, truth, unreported
 from sleec_runtime.evaluation.trace_violations import Requirement
-from sleec_runtime.model import Assume, Formula, Rational, names_of
+from sleec_runtime.model import Assume, Exclusive, Formula, Never, Rational, names_of
 
 
 class ConstraintMonitor:
@@ -53,7 +53,8 @@ class ConstraintMonitor:
         yield from found.values()
 
     def _decide(self, moment: Moment, group: Sequence[Moment], end: Rational | None = None) -> Iterator[Deviation]:
-        rules = self._rules_of(moment.domain)
+        is_domain_known = moment.domain != UNKNOWN_DOMAIN
+        rules = self._rules_of(moment.domain if is_domain_known else None)
         own = moment.occurred | moment.executed
         occurred = set().union(*(one.occurred for one in group)) if own else own
         executed = set().union(*(one.executed for one in group)) if own else own
@@ -68,7 +69,9 @@ class ConstraintMonitor:
                 if truth(watched.formula, rules.situation(moment, *others, watched.formula)) is value:
                     continue  # It does not depend on what happens in this moment.
             deviation = deviation_of(watched.statement, watched.formula, moment, value, situation)
-            if value is False and end is not None:
+            if not is_domain_known and _is_of_a_domain(watched.statement):
+                deviation = replace(deviation, kind="undetermined", missing=("domain",))
+            elif value is False and end is not None:
                 unfinished = rules.situation(moment, occurred, executed, watched.formula, is_over=False)
                 if truth(watched.formula, unfinished) is None:
                     deviation = replace(deviation, kind="open", time=end)
@@ -87,3 +90,7 @@ def deviation_of(
         conditions={name: conditions[name] for name in names_of(formula) if name in conditions},
         missing=tuple(dict.fromkeys(unreported(formula, situation))),
     )
+
+
+def _is_of_a_domain(statement: Requirement) -> bool:
+    return isinstance(statement, (Exclusive, Never, Assume)) and statement.domains is not None

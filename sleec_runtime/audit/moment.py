@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 from sleec_runtime.model import Rational, Value
 
 UNKNOWN_DOMAIN = ""
-"""The domain of a moment before the domain is known. Only rules without a domain are decided."""
+"""The domain of a moment before the domain is known, or in a domain that the rules do not have. Only rules without a
+domain are decided."""
 
 
 @dataclass(slots=True)

@@ -14,7 +14,7 @@ A recorder that could not write messages records their number: {"time": 14, "los
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cache
 from typing import TYPE_CHECKING, Any, Union
@@ -35,10 +35,12 @@ _SHORT = 40
 
 @dataclass(frozen=True, slots=True)
 class Entered:
-    """From `time` on, the rules of `domain` apply; all rules if it is None."""
+    """From `time` on, the rules of `domain` apply; all rules if it is None. If it is a `request`, a Context Manager
+    rejects a domain that the rules do not have."""
 
     time: Rational
     domain: str | None
+    request: bool = field(default=False, compare=False)
 
 
 @dataclass(frozen=True, slots=True)

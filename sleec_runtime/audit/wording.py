@@ -98,6 +98,8 @@ def _text(statement: Requirement) -> str:
 
 
 def _unreported(deviation: Deviation) -> str:
+    if deviation.missing == ("domain",):
+        return "the domain is not known"
     names = [f"`{name}`" for name in deviation.missing]
     verb = "was" if len(names) == 1 else "were"
     return f"{listed(names)} {verb} not reported" if names else "a window has a negative length"

@@ -155,7 +155,8 @@ KINDS: Mapping[str, FindingKind] = {
     "unknown-name": _kind(
         709,
         "the rules do not have a name of the log",
-        "The log has an event, obligation, condition or domain that the rules do not name. It is ignored.",
+        "The log has an event, obligation, condition or domain that the rules do not name. It is ignored. After a "
+        "domain that the rules do not have, the rules of domains cannot be decided.",
         "Correct the name in the log or the mapping, or declare it in the rules.",
         f'{_GOOD}{{"time": 20, "event": "CurtianRequest"}}\n',
         severity="warning",

@@ -93,7 +93,7 @@ class RobotMapping(TopicMapping):
     def _domain(self, message: RawMessage) -> Iterator[Observation]:
         domain = DomainChange.from_fields(message.fields).domain
         self._is_domain_known = True
-        yield Entered(message.time, domain)
+        yield Entered(message.time, domain, request=True)
 
     def _conditions(self, message: RawMessage) -> Iterator[Observation]:
         conditions = ConditionsUpdate.from_fields(message.fields).conditions

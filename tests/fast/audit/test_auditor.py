@@ -174,6 +174,28 @@ def test_a_domain_change_selects_other_rules() -> None:
     assert kinds(DOMAINS, "0 @house") == [("unknown-name", 0, "house")]
 
 
+def test_in_an_unknown_domain_only_the_rules_of_domains_are_not_decided() -> None:
+    rules = f"OBLIGATION Open, Wait, Lift, Drop\nRULE lift WHEN Call THEN Lift\n{DOMAINS}NEVER Wait AND Drop\n"
+    text = "0 @home | 1 Request | 1.1 !Open | 5 @ward | 6 Request Call | 6.1 !Lift !Wait !Drop | 9 @home | 10 Request"
+    found = [(d.kind, float(d.time), d.rule) for d in audit(Auditor(parse(rules)), mission(text), 99)]
+    assert found == [
+        ("unknown-name", 5, None),
+        ("undetermined", 6, "open"),
+        ("undetermined", 6, "wait"),
+        ("unrequired", 6.1, None),
+        ("undetermined", 6, None),
+        ("missed", 10, "open"),
+    ]
+    auditor = Auditor(parse(DOMAINS))
+    *_, deviation = audit(auditor, mission("0 @ward | 1 Request"), None)
+    assert message(deviation) == "at 1 s, rule `wait` cannot be decided: the domain is not known"
+    # A ruleset without domains applies everywhere.
+    assert kinds("RULE lift WHEN Call THEN Lift", "0 @ward | 1 Call") == [
+        ("unknown-name", 0, "ward"),
+        ("missed", 1, "Lift"),
+    ]
+
+
 CONSTRAINTS = """
 CONDITION Dark, Sunny
 OBLIGATION Stop, Drive
