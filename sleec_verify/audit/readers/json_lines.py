@@ -25,7 +25,7 @@ class JsonLines:
         """See `Reader.read`. Empty lines are skipped.
 
         If the first line is unreadable, the log has another form. A last line without a line break may be half written:
-        if it is unreadable, the position after it is that before it.
+        if it is unreadable, its position is that of the item before it.
         """
         try:
             with open(self.path, "rb", opener=_open_without_waiting) as file:
@@ -33,15 +33,18 @@ class JsonLines:
                     raise UnreadableLog(f"{self.path} is not a regular file")
                 self._size = os.fstat(file.fileno()).st_size
                 offset, number = self._resume(file, start)
+                position = start
                 while line := file.readline(LONGEST_LINE + 1):
-                    begin, offset, number = offset, offset + len(line), number + 1
+                    offset, number = offset + len(line), number + 1
                     if len(line) > LONGEST_LINE:
                         offset += _skip_rest(file, line)
                     item = self._item(line, number)
                     if isinstance(item, Unreadable) and not line.endswith(b"\n") and len(line) <= LONGEST_LINE:
-                        offset, number = begin, number - 1
+                        yield position, item
+                        break
                     if item is not None:
-                        yield [offset, number], item
+                        position = [offset, number]
+                        yield position, item
                 if os.fstat(file.fileno()).st_size < offset:
                     raise UnreadableLog(f"{self.path} became shorter while it was read", "audit a copy of it")
         except FileNotFoundError:

@@ -71,6 +71,33 @@ def test_a_half_written_last_line_is_read_again_later(tmp_path: Path) -> None:
     assert [item for _, item in reader.read(position)] == [Occurred(1, "E")]
 
 
+def test_a_half_written_line_after_a_break_is_read_again_later(tmp_path: Path) -> None:
+    reader = log(tmp_path, LINES[0][:-1])
+    ((saved, _),) = reader.read()
+    log(tmp_path, f"{LINES[0]}\n\n{LINES[1][:9]}")
+    ((position, item),) = reader.read(saved)
+    assert isinstance(item, Unreadable)
+    assert position == saved
+    log(tmp_path, f"{LINES[0]}\n\n{LINES[1]}{{nonsense}}\n")
+    (_, item), (_, unreadable) = reader.read(saved)
+    assert item == Occurred(1, "E")
+    assert isinstance(unreadable, Unreadable)
+    assert unreadable.line == 5
+
+
+def test_a_line_that_is_completed_while_it_is_read_is_read_again_later(tmp_path: Path) -> None:
+    reader = log(tmp_path, LINES[0] + LINES[1][:9])
+    items = reader.read()
+    saved, _ = next(items)
+    position, item = next(items)
+    assert isinstance(item, Unreadable)
+    with reader.path.open("a") as file:
+        file.write(LINES[1][9:])
+    assert list(items) == []
+    assert position == saved
+    assert [item for _, item in reader.read(position)] == [Occurred(1, "E")]
+
+
 @pytest.mark.parametrize("end", ["", "\n", "\r\n", "  \n", f"\n{LINES[2]}"])
 def test_a_last_line_may_have_no_line_break(end: str, tmp_path: Path) -> None:
     reader = log(tmp_path, LINES[0] + LINES[1][:-1])
