@@ -14,8 +14,8 @@ from sleec_verify.report.pictures.drawing import Drawing, cut
 from sleec_verify.results.mission_timeline import Change, DueWindow, MissionTimeline, Occurrence
 from sleec_verify.wording.phrases import counted
 
-_WIDTH = 1200
-_LEFT, _RIGHT = 232, 48
+_WIDTH = 1252
+_LEFT, _RIGHT = 284, 48
 _MOST_ROWS = 40
 """The most rows of a section."""
 _MOST_LINES = 40

@@ -178,6 +178,8 @@ def test_long_names_end_where_the_picture_begins(name: str) -> None:
     picture = drawn(MissionTimeline("log", 0, 90, triggers=[Occurrence(5, name)]))
     (label,) = (text for text in texts(picture) if text.endswith("…"))
     assert len(label) == 34
+    axis = min(float(line.get("x1", "")) for line in picture.iter() if line.get("class") == "grid")
+    assert 28 + 7.5 * len(label) <= axis, "a name in CamelCase takes 7.5 pixels for each character"
 
 
 def test_bars_in_one_lane_do_not_overlap() -> None:
