@@ -181,9 +181,10 @@ KINDS: Mapping[str, FindingKind] = {
     ),
     "missing-topic": _kind(
         712,
-        "the log has no message on a topic of the mapping",
-        "The mapping names a topic, and the log has no message on it. What this topic reports is not known.",
-        "Correct the name of the topic, or record it.",
+        "the log has no message that means a name of the rules",
+        "The mapping names a topic, and the log has no message on it. Or the mapping has no entry for an event or "
+        "obligation of the rules. What such messages would report is not known.",
+        "Correct the name of the topic, or record it. Add the missing entry to the mapping.",
         f"{_DRESSED}{_USER}{_REQUEST}{_OPEN}",
         f"{_DRESSED}{_USER}{_REQUEST}{_OPEN}",
         severity="warning",

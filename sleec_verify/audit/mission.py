@@ -10,11 +10,19 @@ from typing import Any
 from sleec_runtime.audit.auditor import Auditor
 from sleec_runtime.audit.deviation import Deviation
 from sleec_runtime.audit.mapping import Misfit
-from sleec_runtime.audit.observation import Entered, Observation, RawMessage, read_line, write_line
+from sleec_runtime.audit.observation import (
+    Entered,
+    Executed,
+    Observation,
+    Occurred,
+    RawMessage,
+    read_line,
+    write_line,
+)
 from sleec_runtime.audit.ordering import Ordering
 from sleec_runtime.audit.state import restore, save
 from sleec_runtime.errors import SleecError, SnapshotRefused
-from sleec_runtime.model import Rational, Ruleset
+from sleec_runtime.model import Rational, Ruleset, literals
 from sleec_runtime.ros.monitoring.robot_mapping import RobotMapping
 from sleec_runtime.support.messages import listed
 from sleec_runtime.support.suggestions import nearest
@@ -51,6 +59,7 @@ class Mission:
         self.position: Position = None
         self.topics: set[str] = set()
         self._entered = False
+        self._names_events = False
         self._ungrouped = 0
         self._provisional: list[Unreadable] = []
         self.auditor = Auditor(
@@ -112,6 +121,14 @@ class Mission:
             else:
                 kind, message = "missing-topic", f"the log has no message on the topic `{topic}`{hint}"
             self._record(Record(kind, message, name=topic))
+        unmapped = self._unmapped()
+        if unmapped:
+            names, verb = (
+                listed([f"`{name}`" for name in unmapped]),
+                "it occurs" if len(unmapped) == 1 else "they occur",
+            )
+            problem = f"the mapping has no entry for {names}, so the audit cannot see when {verb}"
+            self._record(Record("missing-topic", problem))
         auditor = self.auditor
         return MissionResult(
             self.path,
@@ -135,6 +152,7 @@ class Mission:
             "records": [record.plain() for record in self.records],
             "more": [[record.plain(), self.counts[record.group]] for record in self._firsts()],
             "entered": self._entered,
+            "names_events": self._names_events,
             "ungrouped": self._ungrouped,
             "observations": self.observations,
             "first": None if self.first is None else number_to_plain(self.first),
@@ -151,6 +169,7 @@ class Mission:
             self.records = [record_from(plain) for plain in state["records"]]
             self.counts = Counter({record_from(plain).group: number for plain, number in state["more"]})
             self._entered = bool(state["entered"])
+            self._names_events = bool(state["names_events"])
             self._ungrouped = state["ungrouped"]
             self.observations = state["observations"]
             self.first = None if state["first"] is None else number_from_plain(state["first"])  # type: ignore[assignment]
@@ -159,6 +178,20 @@ class Mission:
             raise SnapshotRefused("the state of the audit is malformed", "audit the log from its start") from None
         except SleecError as error:
             raise SnapshotRefused(error.message, error.hint) from None
+
+    def _unmapped(self) -> list[str]:
+        """The events and obligations that no message can mean, if a mapping alone gives the log its meaning."""
+        if not self._mapping.sources or self._names_events:
+            return []
+        events, obligations = (
+            {source.name for source in self._mapping.sources if source.kind == kind} for kind in ("event", "obligation")
+        )
+        if self.settings.chains:
+            events = obligations = events | obligations
+        rules = self.ruleset.rules
+        triggers = {rule.trigger for rule in rules}
+        required = {one.name for rule in rules for clause in rule.clauses() for one in literals(clause)}
+        return sorted((triggers - events) | (required - obligations))
 
     def _firsts(self) -> Sequence[Record]:
         return tuple({record.group: record for record in reversed(self.records)}.values())
@@ -185,12 +218,13 @@ class Mission:
                     problem = f"the mapping of {where} does not fit `{item.topic}`: {meaning.message}"
                     self._record(Record("unreadable", problem, item.time, name=where))
                 else:
-                    self._audit(meaning)
+                    self._audit(meaning, item.topic in self._mapping.topics)
         else:
             self._audit(item)
 
-    def _audit(self, observation: Observation) -> None:
+    def _audit(self, observation: Observation, is_mapped: bool = False) -> None:
         self.observations += 1
+        self._names_events |= not is_mapped and isinstance(observation, (Occurred, Executed))
         self._entered = self._entered or isinstance(observation, Entered)
         if self.first is None:
             self.first = observation.time

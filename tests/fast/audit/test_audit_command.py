@@ -14,8 +14,9 @@ from typing import Any
 import jsonschema
 import pytest
 
-from sleec_runtime.audit.observation import read_line
+from sleec_runtime.audit.observation import RawMessage, read_line, write_line
 from sleec_runtime.errors import SnapshotRefused
+from sleec_runtime.ros.messages import MissionEvent
 from sleec_verify.audit import mission
 from sleec_verify.audit.readers import json_lines
 from sleec_verify.audit.settings import Settings
@@ -240,6 +241,27 @@ def test_only_the_values_that_cannot_be_read_are_unknown(name: str, options: tup
     found = report(cli, f"{log}\n{REQUEST}{END}", *options, **{"rules.sleec": rules})
     assert codes(found) == (["SLEEC706"] if name == "UserUndressed" else []) + ["SLEEC708"]
     assert found["checks"][0]["verdict"] == "unknown"
+
+
+@pytest.mark.parametrize(
+    ("log", "names"),
+    [
+        ("", "`CallNurse`, `OpenCurtains`, `UserFell`"),
+        (OPEN, None),
+        (write_line(RawMessage(11, "/mission", None, {"data": MissionEvent(trigger="UserFell").to_json()})), None),
+    ],
+)
+@pytest.mark.parametrize("options", [(), ("--state", "state.json")])
+def test_an_event_without_an_entry_in_the_mapping_is_named(
+    log: str, names: str | None, options: tuple[str, ...], cli: Cli
+) -> None:
+    others = {"m.toml": '[events]\nCurtainRequest = {topic = "/curtains"}\n'}
+    message = '{"time": 10, "topic": "/curtains", "message": {}}\n'
+    for end in ("", END):
+        found = report(cli, f"{START}{message}{log}\n{end}", "--mapping", "m.toml", *options, **others)
+        wanted = f"the mapping has no entry for {names}, so the audit cannot see when they occur"
+        named = [one["message"] for one in found["findings"] if one["code"] == "SLEEC712"]
+        assert named == ([] if names is None else [wanted])
 
 
 def test_several_logs_are_several_missions(cli: Cli) -> None:
