@@ -27,7 +27,8 @@ MOST_NAMES = 100_000
 
 
 class RobotMapping(TopicMapping):
-    """The sources of a mapping, and the meaning of the messages of our nodes, on topics that have no source:
+    """The sources of a mapping, and the meaning of the messages of our nodes, on topics and about names that have no
+    source:
 
     - /domain has the domain, /conditions the reported values, /mission the triggers, and /executed the executed
       obligations;
@@ -47,7 +48,10 @@ class RobotMapping(TopicMapping):
         self._followed: set[str] = set()
         self._is_domain_known = False
         self._missions = RecentIds()
-        self._known = {source.name for source in self.sources if source.kind == "event"}
+        self._own_conditions = {source.name for source in self.sources if source.kind in ("condition", "measure")}
+        self._own_events = {source.name for source in self.sources if source.kind == "event"}
+        self._own_obligations = {source.name for source in self.sources if source.kind == "obligation"}
+        self._known = set(self._own_events)
         self._triggered: dict[str, tuple[float, list[str]]] = {}
 
     def observations(self, message: RawMessage) -> Iterator[Observation | Misfit]:
@@ -60,9 +64,23 @@ class RobotMapping(TopicMapping):
         if message.type not in (None, STRING) or not isinstance(data, str) or not data.lstrip().startswith("{"):
             return
         try:
-            yield from _MEANINGS[message.topic](self, message)
+            for observation in _MEANINGS[message.topic](self, message):
+                yield from self._about_others(observation)
         except MalformedMessage as error:
             yield _misfit(message, error.message)
+
+    def _about_others(self, observation: Observation | Misfit) -> Iterator[Observation | Misfit]:
+        """What an observation says about names that have no source."""
+        if isinstance(observation, Reported):
+            values = {n: v for n, v in observation.conditions.items() if n not in self._own_conditions}
+            if values:
+                yield Reported(observation.time, values)
+        elif not (
+            (isinstance(observation, Occurred) and observation.event in self._own_events)
+            or (isinstance(observation, Execution) and observation.obligation in self._own_obligations)
+            or (isinstance(observation, Entered) and self.has_domain)
+        ):
+            yield observation
 
     def state(self) -> Any:
         """See `TopicMapping.state`."""

@@ -42,6 +42,35 @@ def meanings(*messages: tuple[str, Any], mapping: str = "") -> list[object]:
     return found
 
 
+def test_an_entry_of_the_mapping_replaces_what_our_nodes_say_about_its_name() -> None:
+    mapping = """
+        domain = {topic = "/mode", field = "data"}
+        [conditions]
+        Dark = {topic = "/light", field = "data"}
+        [events]
+        Go = {topic = "/go"}
+        [obligations]
+        Drive = {topic = "/wheels"}
+    """
+    ours: tuple[tuple[str, Any], ...] = (
+        ("/domain", '{"domain": "home"}'),
+        ("/conditions", '{"Dark": true}'),
+        update(0, full=True, Dark="true"),
+        ("/conditions", '{"Dark": true, "age": 3}'),
+        ("/mission", '{"trigger": "Go"}'),
+        ("/executed", '{"node": "n", "triggered": 1, "time": 1, "trigger": "Go", "obligations": ["Drive", "Look"]}'),
+    )
+    assert meanings(*ours, mapping=mapping) == [Reported(3, {"age": 3}), Executed(5, "Look")]
+    own: tuple[tuple[str, Any], ...] = (
+        ("/mode", {"data": "home"}),
+        ("/light", {"data": True}),
+        ("/go", {}),
+        ("/wheels", {}),
+    )
+    wanted = [Entered(0, "home"), Reported(1, {"Dark": True}), Occurred(2, "Go"), Executed(3, "Drive")]
+    assert meanings(*own, mapping=mapping) == wanted
+
+
 def test_messages_of_our_nodes_mean_what_they_say() -> None:
     assert meanings(
         ("/domain", '{"domain": "home"}'),
