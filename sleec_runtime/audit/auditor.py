@@ -146,7 +146,7 @@ class Auditor:
             domain = self.moment.domain if observation.request else UNKNOWN_DOMAIN
         if domain != self.moment.domain:
             found += self._close()
-            self.moment = Moment(self.moment.time, domain, self.moment.conditions)
+            self.moment = Moment(self.moment.time, domain, self.moment.conditions, has_entered=True)
         return found
 
     def _report(self, observation: Reported) -> list[Deviation]:
@@ -199,7 +199,7 @@ class Auditor:
     def _close(self) -> list[Deviation]:
         """The deviations of the present moment, which ends."""
         moment = self.moment
-        if not (moment.occurred or moment.executed or moment.changed):
+        if not (moment.occurred or moment.executed or moment.changed or moment.has_entered):
             return []
         found = list(self._trigger(moment))
         unrequired = [name for name in moment.executions if not self._is_required(name, moment.time)]

@@ -15,7 +15,7 @@ from sleec_runtime.audit.domain_rules import DomainRules
 from sleec_runtime.audit.moment import UNKNOWN_DOMAIN, Moment
 from sleec_runtime.evaluation.formula_truth import Situation, truth, unreported
 from sleec_runtime.evaluation.trace_violations import Requirement
-from sleec_runtime.model import Assume, Exclusive, Formula, Never, Rational, names_of
+from sleec_runtime.model import Assume, Formula, Rational, names_of
 
 
 class ConstraintMonitor:
@@ -59,7 +59,8 @@ class ConstraintMonitor:
         occurred = set().union(*(one.occurred for one in group)) if own else own
         executed = set().union(*(one.executed for one in group)) if own else own
         is_first = moment is group[0]
-        for watched in rules.watched((occurred | executed if is_first else own) | moment.changed):
+        names = (occurred | executed if is_first else own) | moment.changed
+        for watched in rules.watched(names, moment.has_entered):
             situation = rules.situation(moment, occurred, executed, watched.formula)
             value = truth(watched.formula, situation)
             if value or (value is None and not watched.events & own):
@@ -69,7 +70,7 @@ class ConstraintMonitor:
                 if truth(watched.formula, rules.situation(moment, *others, watched.formula)) is value:
                     continue  # It does not depend on what happens in this moment.
             deviation = deviation_of(watched.statement, watched.formula, moment, value, situation)
-            if not is_domain_known and _is_of_a_domain(watched.statement):
+            if not is_domain_known and watched.is_of_domains:
                 deviation = replace(deviation, kind="undetermined", missing=("domain",))
             elif value is False and end is not None:
                 unfinished = rules.situation(moment, occurred, executed, watched.formula, is_over=False)
@@ -90,7 +91,3 @@ def deviation_of(
         conditions={name: conditions[name] for name in names_of(formula) if name in conditions},
         missing=tuple(dict.fromkeys(unreported(formula, situation))),
     )
-
-
-def _is_of_a_domain(statement: Requirement) -> bool:
-    return isinstance(statement, (Exclusive, Never, Assume)) and statement.domains is not None

@@ -33,12 +33,13 @@ InstantStatement = Union[Exclusive, Never, Assume, EventRelation, MeasureRelatio
 
 class Watched(NamedTuple):
     """A constraint or relation as a `formula` that holds at every instant. `events` are the events in it, and `number`
-    is its place in the text."""
+    is its place in the text. If it `is_of_domains`, it applies in some domains only."""
 
     number: int
     statement: InstantStatement
     formula: Formula
     events: frozenset[str]
+    is_of_domains: bool
 
 
 class DomainRules:
@@ -52,6 +53,7 @@ class DomainRules:
         self.before: list[EventRelation] = []
         self.lasting: list[Lasting] = []
         self._by_name: dict[str, list[Watched]] = {}
+        self._of_domains: list[Watched] = []
         for number, statement in enumerate(ruleset.statements):
             if isinstance(statement, Lasting):
                 self.lasting.append(statement)
@@ -59,13 +61,19 @@ class DomainRules:
                 self.before.append(statement)
             elif isinstance(statement, (Exclusive, Never, Assume, EventRelation, MeasureRelation, Effect)):
                 formula = _formula(statement)
-                watched = Watched(number, statement, formula, events_in(formula))
+                is_of_domains = isinstance(statement, (Exclusive, Never, Assume)) and statement.domains is not None
+                watched = Watched(number, statement, formula, events_in(formula), is_of_domains)
+                if is_of_domains and not watched.events:
+                    self._of_domains.append(watched)
                 for name in dict.fromkeys(names_of(formula)):
                     self._by_name.setdefault(name, []).append(watched)
 
-    def watched(self, names: Iterable[str]) -> list[Watched]:
-        """The constraints and relations that depend on any of these names, in text order."""
+    def watched(self, names: Iterable[str], has_entered: bool) -> list[Watched]:
+        """The constraints and relations that depend on any of these names, in text order. If the domain `has_entered`,
+        also those of domains that depend on conditions only."""
         found = {one.number: one for name in names for one in self._by_name.get(name, ())}
+        if has_entered:
+            found.update({one.number: one for one in self._of_domains})
         return [found[number] for number in sorted(found)]
 
     def context(self, moment: Moment) -> Situation:

@@ -19,7 +19,8 @@ class Moment:
     A report ends a moment if something has happened in it, so that each event is decided by what was reported before
     it. `changed` are the conditions that were reported since the moment before. `occurred` are the events that trigger
     rules, and `executed` those that fulfil obligations. If the rules have chains, both have all events. `is_triggered`:
-    an event occurred that is not only an execution. `executions` are the observed executions.
+    an event occurred that is not only an execution. `executions` are the observed executions. `has_entered`: the moment
+    begins with another domain.
     """
 
     time: Rational
@@ -30,3 +31,4 @@ class Moment:
     executed: set[str] = field(default_factory=set)
     is_triggered: bool = False
     executions: list[str] = field(default_factory=list)
+    has_entered: bool = False

@@ -171,6 +171,7 @@ def _moment(moment: Moment, contexts: _Contexts) -> dict[str, Any]:
         "executed": sorted(moment.executed),
         "triggered": moment.is_triggered,
         "executions": moment.executions,
+        "entered": moment.has_entered,
     }
 
 
@@ -186,6 +187,7 @@ def _moment_from(ruleset: Ruleset, plain: Any, contexts: list[dict[str, Value]])
         _names(plain["executed"]),
         bool(plain["triggered"]),
         [_name(name) for name in plain["executions"]],
+        bool(plain["entered"]),
     )
 
 

@@ -174,6 +174,28 @@ def test_a_domain_change_selects_other_rules() -> None:
     assert kinds(DOMAINS, "0 @house") == [("unknown-name", 0, "house")]
 
 
+def test_constraints_of_a_domain_are_decided_when_the_domain_begins() -> None:
+    rules = """
+        CONDITION Night, Sunny, Loud
+        ASSUME NOT (Night AND Loud)
+        DOMAIN home
+        RULE open WHEN Request THEN Open
+        DOMAIN ward
+        ASSUME NOT (Night AND Sunny)
+    """
+    start = "0 @home | 1 Night=true Sunny=true Loud=true | "
+    everywhere = [("assumption", 1)]
+    for text, expected in (
+        ("5 @ward", [("assumption", 5)]),
+        ("5 @ward | 6 @home | 7 @ward | 8 @ward", [("assumption", 5), ("assumption", 7)]),
+        ("5 Sunny=false @ward | 6 Sunny=true", [("assumption", 6)]),
+        ("5 @ward Sunny=false", []),
+        ("5 Sunny=? @ward", []),
+        ("5 @home", []),
+    ):
+        assert [(kind, at) for kind, at, _ in kinds(rules, start + text)] == everywhere + expected, text
+
+
 def test_in_an_unknown_domain_only_the_rules_of_domains_are_not_decided() -> None:
     rules = f"OBLIGATION Open, Wait, Lift, Drop\nRULE lift WHEN Call THEN Lift\n{DOMAINS}NEVER Wait AND Drop\n"
     text = "0 @home | 1 Request | 1.1 !Open | 5 @ward | 6 Request Call | 6.1 !Lift !Wait !Drop | 9 @home | 10 Request"
