@@ -141,7 +141,7 @@ class Auditor:
     def _enter(self, observation: Entered) -> list[Deviation]:
         domain = observation.domain
         found: list[Deviation] = []
-        if domain is not None and domain not in self.ruleset.domains:
+        if domain is not None and domain not in (UNKNOWN_DOMAIN, *self.ruleset.domains):
             found = self._unknown("domain", domain)
             domain = self.moment.domain if observation.request else UNKNOWN_DOMAIN
         if domain != self.moment.domain:

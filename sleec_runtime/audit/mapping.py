@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from sleec_runtime.audit.message_field import NoSuchField
+from sleec_runtime.audit.moment import UNKNOWN_DOMAIN
 from sleec_runtime.audit.observation import Entered, Executed, Observation, Occurred, RawMessage, Reported
 from sleec_runtime.audit.raw_value import raw_text
 from sleec_runtime.audit.source import GOAL_STATES, Source, Unsuitable
@@ -67,8 +68,8 @@ class TopicMapping:
                 yield Misfit(message.time, source, str(problem))
             if source.kind in ("condition", "measure"):
                 reported[source.name] = value
-            elif isinstance(value, str):
-                yield Entered(message.time, value or None)
+            elif source.kind == "domain":
+                yield Entered(message.time, value or None if isinstance(value, str) else UNKNOWN_DOMAIN)
         if reported:
             yield Reported(message.time, reported)
         yield from happened

@@ -8,6 +8,7 @@ from typing import TypeVar
 from sleec_runtime.audit.auditor import Auditor
 from sleec_runtime.audit.deviation import BREACHES, Deviation
 from sleec_runtime.audit.duty import Due, Duty
+from sleec_runtime.audit.moment import UNKNOWN_DOMAIN
 from sleec_runtime.audit.observation import Entered, Executed, Observation, Occurred, Reported
 from sleec_runtime.audit.wording import message, time_text
 from sleec_runtime.model import Rational, obligation_text
@@ -46,7 +47,7 @@ class TimelineRecorder:
         # An observation that is out of order counts at the time of the one before it.
         time = timeline.end = max(timeline.end, observation.time)
         if isinstance(observation, Entered):
-            name = observation.domain or ""
+            name = "not known" if observation.domain == UNKNOWN_DOMAIN else observation.domain or ""
             if not timeline.domains or timeline.domains[-1].name != name:
                 self._keep(timeline.domains, Change(time, name, None))
         elif isinstance(observation, Occurred):

@@ -8,11 +8,14 @@ from typing import Any
 
 import pytest
 
+from sleec_runtime.audit.auditor import Auditor
 from sleec_runtime.audit.mapping import Misfit, TopicMapping
 from sleec_runtime.audit.mapping_file import LiveTopic, parse_mapping
+from sleec_runtime.audit.moment import UNKNOWN_DOMAIN
 from sleec_runtime.audit.observation import Entered, Executed, Occurred, RawMessage, Reported
 from sleec_runtime.errors import MappingError
 from sleec_runtime.language import parse
+from tests.support.missions import audit
 
 RULES = parse("""
 MEASURE battery: number
@@ -67,6 +70,7 @@ def test_values_of_fields_are_conditions_and_measures() -> None:
         Entered(0, "home"),
         Entered(1, "ward"),
         "`values` has no name for 'other'",
+        Entered(2, UNKNOWN_DOMAIN),
         Reported(3, {"Dark": True}),
         Reported(4, {"Dark": True}),
         Reported(5, {"Dark": False}),
@@ -126,9 +130,25 @@ def test_an_unknown_value_does_not_repeat_an_event() -> None:
 def test_a_domain_is_a_text_or_a_value_with_a_name(values: str, raw: object) -> None:
     text = f'domain = {{topic = "/t", field = "data"{values}}}'
     is_missing = raw is None or raw != raw
-    found = meanings(text, ("/t", {"data": raw}))
-    assert len(found) == (0 if is_missing else 1)
-    assert all(isinstance(one, str) for one in found)
+    *problems, entered = meanings(text, ("/t", {"data": raw}))
+    assert len(problems) == (0 if is_missing else 1)
+    assert all(isinstance(one, str) for one in problems)
+    assert entered == Entered(0, UNKNOWN_DOMAIN)
+
+
+@pytest.mark.parametrize("fields", [{"data": 3}, {"data": None}, {"dta": 1}, {}])
+def test_in_a_domain_that_is_not_known_no_rule_of_a_domain_is_decided(fields: dict[str, object]) -> None:
+    text = """
+        domain = {topic = "/mode", field = "data", values = {home = 1, ward = 2}}
+        [events]
+        Button = {topic = "/button"}
+    """
+    auditor = Auditor(RULES)
+    observed = meanings(
+        text, ("/mode", {"data": 2}), ("/mode", fields), ("/button", {}), ("/mode", {"data": 1}), ("/button", {})
+    )
+    found = audit(auditor, [one for one in observed if isinstance(one, (Entered, Occurred))])
+    assert [(one.kind, one.time, one.missing) for one in found] == [("undetermined", 2, ("domain",))]
 
 
 def parse_number(text: str) -> Any:
