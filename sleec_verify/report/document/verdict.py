@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from hashlib import sha256
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from sleec_runtime.model import Assume
+from sleec_runtime.model import RELATIONS, Assume, Relation
 from sleec_verify import __version__
 from sleec_verify.encoding.trace_scope import has_chains, speaks_of_traces
 from sleec_verify.results.finding import Proved, Unknown
@@ -167,9 +167,17 @@ def conditions_of_validity(content: Content) -> Iterator[str]:
         yield sentence("Exceptions are read by priority: the last exception whose condition is true decides.")
     for one in _assumptions(ruleset):
         line = ruleset.source.place(one.span).line
-        yield sentence(
-            "It is assumed that {condition} (line {line}).", condition=condition_words(one.formula), line=line
-        )
+        if isinstance(one, Assume):
+            yield sentence(
+                "It is assumed that {condition} (line {line}).", condition=condition_words(one.formula), line=line
+            )
+        else:
+            text = ruleset.source.text[one.span.start : one.span.end]
+            yield sentence(
+                "It is assumed that this relation holds: {text} (line {line}).",
+                text=quoted(" ".join(text.split())),
+                line=line,
+            )
     if not _assumptions(ruleset):
         yield sentence("No situation is excluded by an assumption.")
     if scope.domain is not None:
@@ -209,8 +217,9 @@ def repetition(content: Content) -> str:
     return shlex.join([*words, ruleset.source.path])
 
 
-def _assumptions(ruleset: Ruleset) -> list[Assume]:
-    return [one for one in ruleset.constraints if isinstance(one, Assume)]
+def _assumptions(ruleset: Ruleset) -> list[Assume | Relation]:
+    """What excludes situations: the assumptions, and the relations."""
+    return [one for one in ruleset.statements if isinstance(one, (Assume, *RELATIONS))]
 
 
 STATEMENTS: Mapping[str, str] = {

@@ -205,6 +205,21 @@ WHEN Ward THEN Stay
     assert "| yes |" in ward
 
 
+def test_relations_are_assumptions_of_the_verdict(cli: Cli) -> None:
+    rules = """EVENT Ring, Fire BY environment
+EVENT OpenDoor
+RELATION Ring
+  EXCLUDES Fire
+WHEN Ring THEN NOT OpenDoor
+WHEN Fire THEN OpenDoor
+"""
+    page = Page(cli("report", "a.sleec", files={"a.sleec": rules}).out)
+    assert "Proved: no course of events leads to a contradiction in the 2 rules of a.sleec" in page.text
+    assert "under the assumption in line 3" in page.text
+    assert "It is assumed that this relation holds: RELATION Ring EXCLUDES Fire (line 3)." in page.text
+    assert "No situation is excluded" not in page.text
+
+
 def test_what_cannot_be_compared_or_checked_is_said(cli: Cli) -> None:
     ran = cli("report", "a.sleec", "--base", "b.sleec", files={"a.sleec": CONFLICT, "b.sleec": "RULE"})
     assert ran.code == 2
