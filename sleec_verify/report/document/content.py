@@ -62,15 +62,16 @@ def content(
     certificate: tuple[str, ...] = (),
 ) -> Content:
     """The content of the report on a ruleset. The size of every table is limited."""
+    only: Domains = None if scope.domain is None else (scope.domain,)
     ruleset = outcome.ruleset if scope.domain is None else outcome.ruleset.in_domain(scope.domain)
     parts = _Parts(ruleset, outcome.untimed == "eventually")
-    parted = {rule.label: reading_table(parts.common(rule.domains), rule) for rule in ruleset.rules}
+    parted = {rule.label: reading_table(parts.common(only or rule.domains), rule) for rule in ruleset.rules}
     return Content(
         outcome,
         ruleset,
         scope,
-        {rule.label: parts.table(rule.domains, [rule]) for rule in ruleset.rules},
-        tuple(_trigger_tables(ruleset, parts)),
+        {rule.label: parts.table(only or rule.domains, [rule]) for rule in ruleset.rules},
+        tuple(_trigger_tables(ruleset, parts, only)),
         {label: table for label, table in parted.items() if table is not None and (table.total or table.why)},
         base,
         certificate,
@@ -123,14 +124,14 @@ def _applies(constraint: Constraint, domains: Domains) -> bool:
     return constraint.domains is None or (domains is not None and set(domains) <= set(constraint.domains))
 
 
-def _trigger_tables(ruleset: Ruleset, parts: _Parts) -> Iterator[TriggerTable]:
-    """The tables of the triggers with several rules."""
+def _trigger_tables(ruleset: Ruleset, parts: _Parts, only: Domains) -> Iterator[TriggerTable]:
+    """The tables of the triggers with several rules; in the domain `only`, if it is asked for."""
     by_trigger: dict[str, list[Rule]] = {}
     for rule in ruleset.rules:
         by_trigger.setdefault(rule.trigger, []).append(rule)
     for rules in by_trigger.values():
         if len(rules) > 1:
-            for domains, there in _in_each_domain(ruleset, rules):
+            for domains, there in [(only, rules)] if only else _in_each_domain(ruleset, rules):
                 if len(there) > 1:
                     yield TriggerTable(domains or (), parts.table(domains, there))
 
@@ -138,7 +139,7 @@ def _trigger_tables(ruleset: Ruleset, parts: _Parts) -> Iterator[TriggerTable]:
 def _in_each_domain(ruleset: Ruleset, rules: Sequence[Rule]) -> Iterator[tuple[Domains, Sequence[Rule]]]:
     """Those of the rules that apply together, with the domains; domains with the same rules and constraints once."""
     if len({one.domains for one in (*rules, *ruleset.constraints)}) == 1:
-        yield None, rules
+        yield rules[0].domains, rules
         return
     together: dict[tuple[tuple[Rule, ...], tuple[Constraint, ...]], list[str]] = {}
     for domain in ruleset.domains:

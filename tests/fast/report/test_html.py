@@ -205,6 +205,28 @@ WHEN Ward THEN Stay
     assert "| yes |" in ward
 
 
+def test_a_text_in_domains_only_has_its_constraints_in_its_tables(cli: Cli) -> None:
+    rules = """DOMAIN home, ward
+WHEN Bell THEN OpenDoor
+WHEN Bell THEN CallNurse
+WHEN Bell THEN LockDoor
+EXCLUSIVE OpenDoor, CallNurse
+"""
+
+    def tables(text: str, *options: str) -> str:
+        ran = cli("report", "a.sleec", "--no-repairs", "--format", "markdown", *options, files={"a.sleec": text})
+        return ran.out.partition("Rules with the same trigger, together")[2]
+
+    one = "the EXCLUSIVE in line 5 excludes this"
+    assert "In home and ward:" in tables(rules)
+    assert tables(rules).count(one) == 1
+    rules += "DOMAIN ward\nEXCLUSIVE OpenDoor, LockDoor\n"
+    for domain, contradictions in (("home", 1), ("ward", 2)):
+        shown = tables(rules, "--domain", domain)
+        assert shown.count("In ") == shown.count(f"In {domain}:") == 1
+        assert shown.count("excludes this") == contradictions
+
+
 def test_relations_are_assumptions_of_the_verdict(cli: Cli) -> None:
     rules = """EVENT Ring, Fire BY environment
 EVENT OpenDoor
