@@ -20,7 +20,10 @@ class UsedName(NamedTuple):
 
 
 def names(ruleset: Ruleset) -> Iterator[UsedName]:
-    """Every name by kind: triggers, conditions, measures and obligations, each in the order of the alphabet."""
+    """Every name by kind: triggers, conditions, measures and obligations, each in the order of the alphabet.
+
+    An event that rules require or forbid, and that triggers none, is no trigger here.
+    """
     users: dict[tuple[str, str], dict[str, None]] = {}
     for rule in ruleset.rules:
         for use in _uses(rule):
@@ -32,7 +35,8 @@ def names(ruleset: Ruleset) -> Iterator[UsedName]:
         ("obligation", ruleset.obligations),
     ):
         for name in sorted(every):
-            yield UsedName(name, spoken(name), kind_words(kind), tuple(users.get((kind, name), ())))
+            if kind != "trigger" or (kind, name) in users or name not in ruleset.obligations:
+                yield UsedName(name, spoken(name), kind_words(kind), tuple(users.get((kind, name), ())))
 
 
 def _uses(rule: Rule) -> Iterator[tuple[str, str]]:
@@ -44,4 +48,8 @@ def _uses(rule: Rule) -> Iterator[tuple[str, str]]:
             else:
                 yield from (("measure", name) for name in measures_of(leaf))
     for clause in rule.clauses():
-        yield from (("obligation", one.name) for one in literals(clause))
+        for one in literals(clause):
+            yield "obligation", one.name
+            window = None if one.timing is None else one.timing.window
+            for length in () if window is None else (window.start, window.end):
+                yield from (("measure", name) for name in (() if length is None else length.measures))

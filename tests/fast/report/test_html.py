@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from sleec_runtime.language import parse
+from sleec_verify.report.document.names import names
 from tests.support.cli import Cli
 from tests.support.paths import ROOT
 
@@ -225,6 +227,23 @@ EXCLUSIVE OpenDoor, CallNurse
         shown = tables(rules, "--domain", domain)
         assert shown.count("In ") == shown.count(f"In {domain}:") == 1
         assert shown.count("excludes this") == contradictions
+
+
+def test_the_names_have_every_rule_that_uses_them() -> None:
+    rules = """EVENT Ring BY environment
+EVENT Answer, Knock, Wait
+MEASURE patience: integer
+ASSUME patience >= 1 AND patience <= 3
+RULE r
+WHEN Ring THEN Wait ELSE Answer WITHIN patience minutes
+"""
+    assert [(one.name, one.kind, one.rules) for one in names(parse(rules))] == [
+        ("Knock", "trigger", ()),
+        ("Ring", "trigger", ("r",)),
+        ("patience", "measure", ("r",)),
+        ("Answer", "obligation", ("r",)),
+        ("Wait", "obligation", ("r",)),
+    ]
 
 
 def test_relations_are_assumptions_of_the_verdict(cli: Cli) -> None:
