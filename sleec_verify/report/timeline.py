@@ -91,7 +91,13 @@ def in_words(timeline: Timeline) -> Iterator[str]:
         yield joined("", [when, happens])
         yield from dict.fromkeys(below)
     if timeline.now is not None:
-        yield sentence("after this, it is impossible to follow every rule")
+        now = timeline.moments[timeline.now].time
+        if told[-1][0] <= now:
+            yield sentence("after this, it is impossible to follow every rule")
+        elif now == told[0][0]:
+            yield sentence("from the first moment on, it is impossible to follow every rule")
+        else:
+            yield sentence("after {time}, it is impossible to follow every rule", time=duration(now))
 
 
 def _up_to(time: int, lasts: int, step: int) -> str:

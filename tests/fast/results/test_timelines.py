@@ -39,7 +39,7 @@ def test_what_falls_due_in_place_of_what_was_not_done_is_told_with_its_time():
         "  rule `s` forbids `C within 5 minutes`",
         "  rule `t` forbids `B within 10 minutes`",
         "after 2 minutes, instead of `B`, rule `r` requires `C`",
-        "after this, it is impossible to follow every rule",
+        "from the first moment on, it is impossible to follow every rule",
     ]
     assert heads.split() == ["0", "s", "now", "2", "min"]
     column = heads.index("2 min")
