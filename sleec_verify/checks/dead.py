@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from sleec_runtime.model import RELATIONS, Clause, MeasureRelation, Rule, in_text_order
+from sleec_runtime.model import RELATIONS, Clause, Formula, MeasureRelation, Rule, in_text_order
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.checks.questions import ask_both_parts, ask_each, ask_each_shape
 from sleec_verify.query.question import Question
@@ -173,7 +173,23 @@ def _why(index: RulesetIndex, position: int, number: int) -> str:
             return sentence("its condition can never be true")
     if len(index.clauses[position]) == 2:
         return sentence("its condition can be true, but never when the rule is triggered")
-    return sentence("its condition can be true, but never when the rule is triggered and no other exception applies")
+    earlier = _earlier_in_cascade(index, position, number)
+    with Question(index) as question:
+        triggered = question.encoder.any_of(question.guards(position))
+        if earlier and not question.ask(triggered, *map(question.encoder.literal, (*earlier, condition))):
+            return sentence(
+                "its condition can be true, but never when the rule is triggered and the conditions of all exceptions "
+                "before it are true"
+            )
+    return sentence("its condition can be true, but whenever the rule is triggered then, the default or another exception applies")
+
+
+def _earlier_in_cascade(index: RulesetIndex, position: int, number: int) -> list[Formula]:
+    """The conditions of the exceptions before this one, in a cascade without nested exceptions; empty otherwise."""
+    rule = index.rules[position]
+    if index.ruleset.reading != "cascade" or len(rule.hedges) + 1 != len(index.clauses[position]):
+        return []
+    return [hedge.condition for hedge in rule.hedges[: number - 1] if hedge.condition is not None]
 
 
 _EXAMPLE_SCALE = "MEASURE RiskLevel: r_low < r_moderate < r_severe\n"
