@@ -35,7 +35,7 @@ def cell_words(cell: Cell, ruleset: Ruleset) -> str:
     if measure.kind == "scale":
         return _any_of([spoken(measure.values[value]) for value in cell.values])
     (_, cuts), *_ = cell.variable.cuts
-    return _any_of([_range(cuts, run[0], run[-1]) for run in _runs(cell.values)])
+    return _any_of([_range(cuts, run[0], run[-1], measure.kind == "integer") for run in _runs(cell.values)])
 
 
 def _order_words(cell: Cell) -> str:
@@ -63,10 +63,13 @@ def _runs(values: Sequence[int]) -> Iterator[list[int]]:
         yield [value for _, value in run]
 
 
-def _range(cuts: Sequence[Cut], first: int, last: int) -> str:
-    """The numbers from region `first` to region `last`; region i is between cut i - 1 and cut i."""
+def _range(cuts: Sequence[Cut], first: int, last: int, whole: bool) -> str:
+    """The numbers from region `first` to region `last`; region i is between cut i - 1 and cut i. Above 17, a `whole`
+    number is at least 18."""
     low = cuts[first - 1] if first else None
     high = cuts[last] if last < len(cuts) else None
+    if low is not None and whole:
+        low = Cut(low.value + 1, False)
     if low is not None and high is not None and low.value == high.value:
         return sentence("exactly {value}", value=_number(low.value))
     parts = []

@@ -246,6 +246,23 @@ WHEN Ring THEN Wait ELSE Answer WITHIN patience minutes
     ]
 
 
+@pytest.mark.parametrize(
+    ("kind", "ranges"),
+    [
+        ("integer", ["at least 0 and at most 17", "exactly 18", "at least 19"]),
+        ("number", ["at least 0 and below 18", "at least 18 and at most 18.5", "above 18.5"]),
+    ],
+)
+def test_ranges_of_whole_numbers_have_whole_limits(kind: str, ranges: list[str], cli: Cli) -> None:
+    rules = f"""READING cascade
+MEASURE age: {kind}
+ASSUME age >= 0
+WHEN A AND age >= 18 THEN B UNLESS age > 18.5 IN WHICH CASE C
+"""
+    ran = cli("report", "a.sleec", "--no-repairs", "--format", "markdown", files={"a.sleec": rules})
+    assert re.findall(r"^\| ([^|]*\d) \|", ran.out, re.MULTILINE) == ranges
+
+
 def test_relations_are_assumptions_of_the_verdict(cli: Cli) -> None:
     rules = """EVENT Ring, Fire BY environment
 EVENT OpenDoor
