@@ -181,7 +181,9 @@ def _why(index: RulesetIndex, position: int, number: int) -> str:
                 "its condition can be true, but never when the rule is triggered and the conditions of all exceptions "
                 "before it are true"
             )
-    return sentence("its condition can be true, but whenever the rule is triggered then, the default or another exception applies")
+    return sentence(
+        "its condition can be true, but whenever the rule is triggered then, the default or another exception applies"
+    )
 
 
 def _earlier_in_cascade(index: RulesetIndex, position: int, number: int) -> list[Formula]:

@@ -36,6 +36,15 @@ def deduplicate(findings: Iterable[Finding]) -> list[Finding]:
     ]
 
 
+def stands_for(finding: Finding, check: str, others: Iterable[Finding]) -> bool:
+    """Whether a finding is one of the `others`, which are those of `check`, or stands for one that is left out."""
+    if finding.check == check:
+        return True
+    return finding.check == _ALSO.get(check) and any(
+        _of(one, finding.check) == _of(finding, finding.check) for one in others
+    )
+
+
 def _of(finding: Finding, check: str) -> tuple[object, ...]:
     """The rule or hedge of a finding."""
     return check, finding.rules[:1], finding.clauses, finding.span, finding.domains

@@ -24,6 +24,7 @@ from sleec_verify.report.html.findings import anchor, finding_link, finding_note
 from sleec_verify.report.html.pictures import picture
 from sleec_verify.report.html.tables import reading_table, table, trigger_table
 from sleec_verify.report.pictures.rule_graph import rule_graph
+from sleec_verify.results.deduplication import stands_for
 from sleec_verify.results.finding import ClauseRef
 from sleec_verify.wording.phrases import counted, listed
 from sleec_verify.wording.sentence import joined, sentence
@@ -65,10 +66,10 @@ def section(content: Content, name: str, language: Language) -> Element:
 
 def _examined(content: Content, found: list[NumberedFinding], name: str) -> Element:
     rows = []
-    for one in verdicts(content):
+    for one, result in zip(verdicts(content), content.outcome.results):
         links = element("span")
         for finding in found:
-            if finding.finding.check == one.check:
+            if stands_for(finding.finding, one.check, result.findings):
                 link = element("a", f"{finding.number}", href=f"#{anchor(name, finding.number)}")
                 links.append(link)
         rows.append((one.statement, _standing(one), links if len(links) else one.reason or ""))

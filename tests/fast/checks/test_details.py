@@ -133,8 +133,8 @@ def test_the_note_on_a_dead_hedge_says_which_kind_it_is():
     (one,) = found("WHEN t THEN o UNLESS x < 1 AND x > 2 IN WHICH CASE p", "dead-hedge")
     assert one.note == "its condition can never be true"
     (two,) = found("WHEN t THEN o UNLESS a IN WHICH CASE p UNLESS NOT a IN WHICH CASE q", "dead-hedge")
-    before = "its condition can be true, but never when the rule is triggered and the conditions of all exceptions before"
-    assert two.note == f"{before} it are true"
+    never = "never when the rule is triggered and the conditions of all exceptions before it are true"
+    assert two.note == f"its condition can be true, but {never}"
     for text in (
         "WHEN t THEN o UNLESS x > 5 IN WHICH CASE p UNLESS x > 3 IN WHICH CASE q",
         "READING priority\nWHEN t THEN o UNLESS x > 5 IN WHICH CASE p UNLESS x > 3 IN WHICH CASE q",

@@ -263,6 +263,20 @@ WHEN A AND age >= 18 THEN B UNLESS age > 18.5 IN WHICH CASE C
     assert re.findall(r"^\| ([^|]*\d) \|", ran.out, re.MULTILINE) == ranges
 
 
+def test_every_verdict_that_does_not_hold_has_a_finding_or_a_reason(cli: Cli) -> None:
+    rules = """READING cascade
+MEASURE x: integer
+WHEN A THEN B
+UNLESS x > 5 IN WHICH CASE C
+UNLESS x < 3 IN WHICH CASE D
+WHEN A AND x > 5 AND x < 3 THEN E
+"""
+    ran = cli("report", "a.sleec", "--no-repairs", files={"a.sleec": rules})
+    rows = re.findall(r"<tr>(?:(?!</tr>).)*✗ does not hold(?:(?!</tr>).)*</tr>", ran.out, re.DOTALL)
+    assert len(rows) == 4
+    assert all('href="#ruleset-1-finding-' in row for row in rows)
+
+
 def test_relations_are_assumptions_of_the_verdict(cli: Cli) -> None:
     rules = """EVENT Ring, Fire BY environment
 EVENT OpenDoor
