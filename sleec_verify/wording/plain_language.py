@@ -140,9 +140,23 @@ def obligation_words(obligation: Obligation) -> str:
     if timing.window is not None:
         words = sentence("{action} {window}", action=words, window=window_words(timing.window))
     if timing.otherwise is not None:
-        words = sentence("{action} (otherwise: {other})", action=words, other=response_words(timing.otherwise))
+        words = sentence("{action} (otherwise: {other})", action=words, other=_alternative_words(timing.otherwise))
     if timing.instead is not None:
-        words = sentence("{action} (or instead: {other})", action=words, other=response_words(timing.instead))
+        words = sentence("{action} (or instead: {other})", action=words, other=_alternative_words(timing.instead))
+    return words
+
+
+def _alternative_words(clause: Clause) -> str:
+    """``the robot must call nurse, unless “asleep” is true (then: nothing is required)``: with the exceptions."""
+    words = response_words(clause)
+    for hedge in clause.hedges:
+        assert hedge.condition is not None, "every hedge has a condition"
+        words = sentence(
+            "{response}, unless {condition} (then: {other})",
+            response=words,
+            condition=condition_words(hedge.condition),
+            other=_alternative_words(hedge),
+        )
     return words
 
 

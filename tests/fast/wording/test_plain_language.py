@@ -66,6 +66,15 @@ def test_conditions_and_responses_read_as_sentences() -> None:
     assert response_words(call.default) == "the robot must answer the call"
 
 
+def test_alternatives_have_their_exceptions() -> None:
+    ruleset = parse("WHEN A THEN B ELSE (C UNLESS p IN WHICH CASE (D UNLESS q IN WHICH CASE E) UNLESS r)")
+    assert response_words(ruleset.rules[0].default) == (
+        "the robot must B (or instead: the robot must C, "
+        "unless “p” is true (then: the robot must D, unless “q” is true (then: the robot must E)), "
+        "unless “r” is true (then: nothing is required))"
+    )
+
+
 def test_a_constant_is_shown_with_its_value() -> None:
     rule = parse("CONSTANT Soon = 5\nWHEN A THEN B WITHIN Soon TO 9 minutes UNLESS Age < Soon").rules[0]
     assert response_words(rule.default) == "the robot must B from soon (5) minutes to 9 minutes after the trigger"
