@@ -37,13 +37,15 @@ def _relation(found: Difference) -> str:
 
 
 def changes(compared: RulesetDifference) -> Iterator[str]:
-    """Each change, and each comparison that is undecided."""
+    """Each change, each comparison that is undecided, and what is not compared."""
     if compared.difference is not None:
         for text in _changes(compared.difference):
             yield sentence("{text}.", text=text)
 
 
 def _changes(found: Difference) -> Iterator[str]:
+    if found.old.reading != found.new.reading:
+        yield sentence("the reading was {old} and is now {new}", old=found.old.reading, new=found.new.reading)
     for change in found.changes:
         yield _with_example(_change(change), change)
     for conflict in found.conflicts:
@@ -51,11 +53,12 @@ def _changes(found: Difference) -> Iterator[str]:
     yield from map(timed_conflict_in_words, found.timed_conflicts)
     for situations in found.situations:
         if situations.way == "added":
-            yield sentence("more situations are possible: {what}", what=situations.what)
+            yield sentence("more situations are possible, without the assumption: {what}", what=situations.what)
         else:
-            yield sentence("fewer situations are possible: {what}", what=situations.what)
+            yield sentence("fewer situations are possible, with the new assumption: {what}", what=situations.what)
     for open_question in found.undecided:
         yield sentence("unknown: {what}: {why}", what=open_question.what, why=open_question.why)
+    yield from found.notes
 
 
 def _change(change: Change) -> str:

@@ -142,12 +142,19 @@ class _Markdown:
 
     def _readings(self, shown: DecisionTable, content: Content) -> Iterator[str]:
         heads = sentence("Read as a cascade"), sentence("Read by priority")
-        yield from self._situations(shown, content, heads, lambda row: list(reading_words(row, content.ruleset)))
+        rule = sentence("Rule {rule} when {event}", rule=spoken(shown.rules[0]), event=trigger_words(shown.trigger))
+        yield from self._situations(shown, content, heads, lambda row: list(reading_words(row, content.ruleset)), rule)
 
     def _situations(
-        self, shown: DecisionTable, content: Content, heads: Sequence[str], decision: Callable[[Row], list[str]]
+        self,
+        shown: DecisionTable,
+        content: Content,
+        heads: Sequence[str],
+        decision: Callable[[Row], list[str]],
+        title: str | None = None,
     ) -> Iterator[str]:
-        yield from (f"**{self._text(sentence('When {event}', event=trigger_words(shown.trigger)))}**", "")
+        title = title or sentence("When {event}", event=trigger_words(shown.trigger))
+        yield from (f"**{self._text(title)}**", "")
         rows = []
         for row in shown.rows:
             cells = {cell.variable: cell_words(cell, content.ruleset) for cell in row.cells}

@@ -163,6 +163,20 @@ def test_the_page_shows_what_changed_since_a_file(cli: Cli) -> None:
     assert "--base none is neither a file nor a version in git" in ran.err
 
 
+@pytest.mark.parametrize("form", ["html", "markdown"])
+def test_a_new_reading_and_new_assumptions_are_changes(form: str, cli: Cli) -> None:
+    old = f"{CONFLICT}RULE late\nWHEN Fall THEN CallNurse WITHIN 5 minutes\n"
+    new = old.replace("READING cascade", "READING priority\nASSUME NOT (Dark AND LightRequested)")
+    ran = cli("report", "a.sleec", "--base", "b.sleec", "--format", form, files={"b.sleec": old, "a.sleec": new})
+    page = ran.out if form == "markdown" else Page(ran.out).text
+    _, changes = page.split("What changed since b.sleec")
+    assert "reading was cascade and is now priority" in changes
+    assumption = "ASSUME NOT (Dark AND LightRequested)"
+    assert f"ewer situations are possible, with the new assumption: {assumption}" in changes
+    assert "comparison covers the responses of each rule" in changes
+    assert "Rule dark when" in page
+
+
 def test_the_page_shows_what_a_certificate_proves(cli: Cli) -> None:
     rules = "READING cascade\nWHEN A THEN B\n"
     cli("certify", "rules.sleec", "-o", "proofs", files={"rules.sleec": rules})
