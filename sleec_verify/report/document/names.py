@@ -22,7 +22,7 @@ class UsedName(NamedTuple):
 def names(ruleset: Ruleset) -> Iterator[UsedName]:
     """Every name by kind: triggers, conditions, measures and obligations, each in the order of the alphabet.
 
-    An event that rules require or forbid, and that triggers none, is no trigger here.
+    An event that rules require or forbid, and that triggers none, is not a trigger here.
     """
     users: dict[tuple[str, str], dict[str, None]] = {}
     for rule in ruleset.rules:

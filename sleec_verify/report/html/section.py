@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 from xml.etree.ElementTree import Element
 
+from sleec_runtime.model import Claim, Exclusive, Never
 from sleec_verify.report.document.changes import changes, summary
 from sleec_verify.report.document.findings import by_clause, numbered
 from sleec_verify.report.document.names import names
@@ -30,6 +31,7 @@ from sleec_verify.wording.phrases import counted, listed
 from sleec_verify.wording.sentence import joined, sentence
 
 if TYPE_CHECKING:
+    from sleec_runtime.model import Ruleset
     from sleec_verify.report.document.content import Content
     from sleec_verify.report.document.findings import NumberedFinding
     from sleec_verify.report.document.verdict import Verdict
@@ -54,6 +56,7 @@ def section(content: Content, name: str, language: Language) -> Element:
         _validity(content),
         *_about_no_rule(content, found, name, language),
         *_rules(content, found, name, language),
+        *_limits_and_aims(content.ruleset),
         *_together(content),
         *_readings(content),
         *_changes(content),
@@ -118,6 +121,26 @@ def _rules(content: Content, found: list[NumberedFinding], name: str, language: 
     ]
     if cards:
         yield element("div", element("h3", sentence("The rules")), *cards)
+
+
+def _limits_and_aims(ruleset: Ruleset) -> Iterator[Element]:
+    """The text of the constraints, concerns and purposes, which the findings and verdicts name."""
+    rows = []
+    for one in ruleset.statements:
+        if isinstance(one, (Exclusive, Never)):
+            kind = sentence("constraint")
+            if one.domains:
+                kind = sentence("constraint in {domains}", domains=listed(one.domains))
+        elif isinstance(one, Claim):
+            kind = sentence("concern") if one.kind == "concern" else sentence("purpose")
+        else:
+            continue
+        text = element("code", " ".join(ruleset.source.text[one.span.start : one.span.end].split()))
+        rows.append((f"{ruleset.source.place(one.span).line}", kind, text))
+    if rows:
+        heads = (sentence("Line"), sentence("Kind"), sentence("Text"))
+        title = sentence("Constraints, concerns and purposes")
+        yield element("div", element("h3", title), table(None, heads, rows))
 
 
 def _together(content: Content) -> Iterator[Element]:

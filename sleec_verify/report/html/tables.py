@@ -73,7 +73,8 @@ def _with_limits(
 ) -> list[Element]:
     heads = [*map(column_words, shown.variables)] or [sentence("Situation")]
     notes = [element("p", note, kind="limit") for note in left_out(shown)]
-    return [*([table(caption, [*heads, last, *more], rows, "decision")] if rows else []), *notes]
+    kind = "readings" if more else "decision"
+    return [*([table(caption, [*heads, last, *more], rows, kind)] if rows else []), *notes]
 
 
 def _cells(row: Row, columns: Sequence[Variable], ruleset: Ruleset) -> list[str]:

@@ -291,6 +291,23 @@ WHEN A AND x > 5 AND x < 3 THEN E
     assert all('href="#ruleset-1-finding-' in row for row in rows)
 
 
+def test_the_page_has_the_text_of_what_findings_name(cli: Cli) -> None:
+    rules = """READING cascade
+WHEN Bell THEN OpenDoor AND LockDoor
+CONCERN open EXISTS Bell
+  WHILE OpenDoor
+PURPOSE shut EXISTS LockDoor
+DOMAIN home
+EXCLUSIVE OpenDoor, LockDoor
+"""
+    page = Page(cli("report", "a.sleec", "--no-repairs", files={"a.sleec": rules}).out)
+    shown = page.text.split("Constraints, concerns and purposes")[1]
+    assert shown.startswith(
+        "LineKindText3concernCONCERN open EXISTS Bell WHILE OpenDoor5purposePURPOSE shut EXISTS LockDoor"
+        "7constraint in homeEXCLUSIVE OpenDoor, LockDoor"
+    )
+
+
 def test_relations_are_assumptions_of_the_verdict(cli: Cli) -> None:
     rules = """EVENT Ring, Fire BY environment
 EVENT OpenDoor
