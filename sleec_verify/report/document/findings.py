@@ -24,10 +24,11 @@ SEVERITY_WORDS: Mapping[Severity, str] = {
 
 
 class NumberedFinding(NamedTuple):
-    """A finding with its number in the report, from 1, and its repairs, if there is a way to find some."""
+    """A finding with its number in the report, from 1, its line, and its repairs, if there is a way to find some."""
 
     number: int
     finding: Finding
+    line: int
     repairs: FindingRepairs | None
 
 
@@ -35,7 +36,12 @@ def numbered(outcome: CheckedRuleset) -> list[NumberedFinding]:
     """The findings of a ruleset, in the order of the text. The repairs of the outcome have the same order."""
     waiting = list(reversed(outcome.repairs or ()))
     return [
-        NumberedFinding(number, finding, waiting.pop() if waiting and waiting[-1].finding == finding else None)
+        NumberedFinding(
+            number,
+            finding,
+            (finding.source or outcome.ruleset.source).place(finding.span).line,
+            waiting.pop() if waiting and waiting[-1].finding == finding else None,
+        )
         for number, finding in enumerate(outcome.deduplicated, 1)
     ]
 
@@ -51,6 +57,11 @@ def by_clause(found: list[NumberedFinding], ruleset: Ruleset) -> dict[ClauseRef,
             if clause.rule in ruleset.by_label:
                 places.setdefault(clause, []).append(one)
     return places
+
+
+def place_words(one: NumberedFinding) -> str:
+    """The code of a finding, and its line: ``SLEEC101, line 3``."""
+    return sentence("{code}, line {line}", code=one.finding.code, line=one.line)
 
 
 def details(finding: Finding) -> Iterator[tuple[str, str]]:

@@ -10,7 +10,14 @@ from typing import TYPE_CHECKING
 from sleec_runtime.support.messages import escaped
 from sleec_verify import __version__
 from sleec_verify.report.document.changes import changes, summary
-from sleec_verify.report.document.findings import SEVERITY_WORDS, NumberedFinding, details, numbered, steps
+from sleec_verify.report.document.findings import (
+    SEVERITY_WORDS,
+    NumberedFinding,
+    details,
+    numbered,
+    place_words,
+    steps,
+)
 from sleec_verify.report.document.table_words import (
     cell_words,
     column_words,
@@ -35,6 +42,7 @@ from sleec_verify.wording.sentence import joined, sentence
 from sleec_verify.wording.translation import Language, translated
 
 if TYPE_CHECKING:
+    from sleec_runtime.errors import SleecError
     from sleec_verify.decision_tables.table import DecisionTable, Row
     from sleec_verify.report.document.content import Content
 
@@ -66,7 +74,10 @@ class _Markdown:
     def report(self, contents: Sequence[Content | UnusableInput]) -> Iterator[str]:
         for one in contents:
             if isinstance(one, UnusableInput):
-                yield from (f"## {_code(one.path)}", "", self._text(error_summary(one.error)), "")
+                nothing = sentence("Nothing was checked, because these rules cannot be read.")
+                yield from (f"## {_code(one.path)}", "", f"> **{self._text(nothing)}**", "")
+                yield from (f"- {self._text(words)}" for words in _problems(one.error))
+                yield ""
             else:
                 yield from self._ruleset(one)
         yield self._text(sentence("Made by sleec-verify {version}.", version=__version__))
@@ -99,7 +110,8 @@ class _Markdown:
 
     def _finding(self, one: NumberedFinding) -> Iterator[str]:
         severity = self._text(SEVERITY_WORDS[one.finding.severity])
-        yield f"{one.number}. **{severity}** ({one.finding.code}): {self._text(one.finding.message)}"
+        place = self._text(place_words(one))
+        yield f"{one.number}. **{severity}** ({place}): {self._text(one.finding.message)}"
         for title, text in details(one.finding):
             yield f"   - {self._text(title)}: {self._text(text)}"
         yield from (f"   - {self._text(line).strip()}" for line in steps(one.finding))
@@ -170,6 +182,18 @@ class _Markdown:
         for line in (heads, ["---"] * len(heads), *rows):
             cells = (cell if line[0] == "---" else self._text(cell) for cell in line)
             yield f"| {' | '.join(cells)} |"
+
+
+def _problems(error: SleecError) -> list[str]:
+    """The problems of a text with their lines, or why there is no text."""
+    from sleec_runtime.errors import LanguageError
+
+    if not isinstance(error, LanguageError):
+        return [error_summary(error)]
+    return [
+        sentence("line {line}: {problem}", line=error.source.place(one.span).line, problem=one.message)
+        for one in error.problems
+    ]
 
 
 def _plain(text: str) -> str:

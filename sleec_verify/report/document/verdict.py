@@ -236,7 +236,7 @@ STATEMENTS: Mapping[str, str] = {
     "trigger-obligation": sentence("No name is both a trigger and an obligation."),
     "forbidden-input": sentence("No rule forbids an event of the environment."),
     "phrase-keyword": sentence("No phrase contains a keyword in lower case."),
-    "confusable": sentence("No names look alike."),
+    "confusable": sentence("No names look alike, and no character is invisible or changes the direction of a line."),
     "misread-name": sentence("No name is likely to be misread."),
     "defect": sentence("The text has no errors that other tools accept."),
     "duplicate-rule": sentence("No two rules say the same."),

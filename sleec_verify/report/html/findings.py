@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 from xml.etree.ElementTree import Element
 
-from sleec_verify.report.document.findings import SEVERITY_WORDS, NumberedFinding, details, steps
+from sleec_verify.report.document.findings import SEVERITY_WORDS, NumberedFinding, details, place_words, steps
 from sleec_verify.report.html.elements import element
 from sleec_verify.report.html.pictures import picture
 from sleec_verify.report.pictures.timeline import timeline_picture
@@ -31,7 +31,10 @@ def finding_note(one: NumberedFinding, section: str, language: Language) -> Elem
     """The whole finding: its message, the situation, the advice and the repairs."""
     finding = one.finding
     title = sentence(
-        "{severity} {number} ({code})", severity=SEVERITY_WORDS[finding.severity], number=one.number, code=finding.code
+        "{severity} {number} ({place})",
+        severity=SEVERITY_WORDS[finding.severity],
+        number=one.number,
+        place=place_words(one),
     )
     found = element(
         "aside",

@@ -166,8 +166,9 @@ class _Graph:
             for position in one.required_by:
                 below.curve(self._right, self._y[position], self._response_left, y, "edge")
             for position in one.forbidden_by:
-                below.curve(self._right, self._y[position], self._response_left, y, "forbids")
-                above.cross((self._right + self._response_left) / 2, (self._y[position] + y) / 2)
+                aside = 6 if position in one.required_by else 0  # beside the line of the requirement
+                below.curve(self._right, self._y[position] + aside, self._response_left, y + aside, "forbids")
+                above.cross((self._right + self._response_left) / 2, (self._y[position] + y) / 2 + aside)
             kind = "chain-node" if one in self._chains else "node"
             self._box(above, self._response_left, self._response_left + _RESPONSE, y, one.name, kind)
             above.arrowhead(self._response_left, y)

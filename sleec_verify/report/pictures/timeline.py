@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from textwrap import wrap
 
@@ -20,18 +21,33 @@ _LEFT, _COLUMN, _ROW = 236, 132, 28
 """The width of names, the distance of two times, and the height of a row."""
 _LETTERS, _LINE = 22, 13
 """The letters of a line above a time, and the height of the line."""
+_QUOTES: Mapping[Language, str] = {"en": "“”", "it": "«»", "de": "„“"}
 _MOST_TIMES = 40
 """The most times that are shown."""
 
 
 def timeline_picture(timeline: Timeline, title: str, language: Language = "en", name: str = "timeline") -> str:
-    """The timeline as an SVG document. `title` says what it shows, and `name` begins the ids in it.
+    """The timeline as an SVG document. `title` says what it shows, and `name` begins the ids in it. Names in backticks
+    become words in quotes there.
 
     Times are at equal distances, whatever the time between them.
     """
-    picture = _Picture(timeline, title, language)
+    head = _in_quotes(translated(title, language), timeline, language)
+    picture = _Picture(timeline, head, language)
     words = "; ".join(translated(line, language).strip() for line in in_words(timeline))
-    return document(translated(title, language), words, picture.width, picture.draw, name)
+    return document(head, words, picture.width, picture.draw, name)
+
+
+def _in_quotes(title: str, timeline: Timeline, language: Language) -> str:
+    """What backticks mark, in quotes; names as words. Conditions stay as the text of the rules has them."""
+    names = {due.event for moment in timeline.moments for due in moment.due}
+    names.update(name for moment in timeline.moments for name in (*moment.events, *moment.conditions))
+
+    def quoted(found: re.Match[str]) -> str:
+        words = spoken(found[1]) if found[1] in names else found[1]
+        return f"{_QUOTES[language][0]}{words}{_QUOTES[language][1]}"
+
+    return re.sub(r"`([^`]+)`", quoted, title)
 
 
 class _Picture:
@@ -51,8 +67,7 @@ class _Picture:
     def draw(self, drawing: Drawing) -> float:
         """Draws the timeline, and returns its height."""
         y = 28.0
-        words = self._words(self._title)
-        for line in wrap(words[:1].upper() + words[1:], int(self.width / 11)):
+        for line in wrap(self._title[:1].upper() + self._title[1:], int(self.width / 11)):
             drawing.text(16, y, line, "title")
             y += 22
         under = drawing.group()

@@ -308,6 +308,16 @@ EXCLUSIVE OpenDoor, LockDoor
     )
 
 
+@pytest.mark.parametrize("form", ["html", "markdown"])
+def test_findings_and_problems_have_their_lines(form: str, cli: Cli) -> None:
+    files = {"a.sleec": CONFLICT, "b.sleec": "RULE a\nWHEN <b> THEN c\n"}
+    ran = cli("report", "a.sleec", "b.sleec", "--format", form, files=files)
+    page = ran.out if form == "markdown" else Page(ran.out).text
+    assert "(SLEEC101, line 4)" in page
+    assert "Nothing was checked, because these rules cannot be read." in page
+    assert ("b.sleec:2:6: error" if form == "html" else "- line 2: expected a trigger, but found `<`") in page
+
+
 def test_relations_are_assumptions_of_the_verdict(cli: Cli) -> None:
     rules = """EVENT Ring, Fire BY environment
 EVENT OpenDoor

@@ -145,6 +145,8 @@ def test_a_timeline_shows_events_and_windows() -> None:
     assert_readable(picture)
     words = [text.text for text in elements(picture, "text")]
     assert {"5 minutes", "10 minutes", "call nurse", spoken("CurtainOpenRequest")} <= set(words)
+    title = next(elements(timeline_picture(finding.timeline, finding.message, "de"), "title"))
+    assert "„call nurse“ ist zugleich geboten und verboten" in (title.text or "")
     kinds = [shape.get("class") for shape in elements(picture, "rect")]
     assert "met" in kinds
     assert "prohibited" in kinds
