@@ -141,7 +141,9 @@ class _Markdown:
                 sentence("{rule}: {response}", rule=spoken(label), response=response)
                 for label, response in decision_words(row, content.ruleset)
             ]
-            words = words or [sentence("no rule applies")]
+            if not words:
+                is_one = len(shown.rules) == 1
+                words = [sentence("the rule does not apply") if is_one else sentence("no rule applies")]
             return [joined("; ", [*words, *contradictions(row, content.ruleset)])]
 
         yield from self._situations(shown, content, (sentence("Then"),), decision)
@@ -154,18 +156,15 @@ class _Markdown:
 
     def _readings(self, shown: DecisionTable, content: Content) -> Iterator[str]:
         heads = sentence("Read as a cascade"), sentence("Read by priority")
-        rule = sentence("Rule {rule} when {event}", rule=spoken(shown.rules[0]), event=trigger_words(shown.trigger))
-        yield from self._situations(shown, content, heads, lambda row: list(reading_words(row, content.ruleset)), rule)
+        yield from self._situations(shown, content, heads, lambda row: list(reading_words(row, content.ruleset)))
 
     def _situations(
-        self,
-        shown: DecisionTable,
-        content: Content,
-        heads: Sequence[str],
-        decision: Callable[[Row], list[str]],
-        title: str | None = None,
+        self, shown: DecisionTable, content: Content, heads: Sequence[str], decision: Callable[[Row], list[str]]
     ) -> Iterator[str]:
-        title = title or sentence("When {event}", event=trigger_words(shown.trigger))
+        event = trigger_words(shown.trigger)
+        title = sentence("When {event}", event=event)
+        if len(shown.rules) == 1:
+            title = sentence("Rule {rule} when {event}", rule=spoken(shown.rules[0]), event=event)
         yield from (f"**{self._text(title)}**", "")
         rows = []
         for row in shown.rows:

@@ -168,9 +168,16 @@ def conditions_of_validity(content: Content) -> Iterator[str]:
     for one in _assumptions(ruleset):
         line = ruleset.source.place(one.span).line
         if isinstance(one, Assume):
-            yield sentence(
-                "It is assumed that {condition} (line {line}).", condition=condition_words(one.formula), line=line
-            )
+            condition = condition_words(one.formula)
+            if one.domains is None or scope.domain is not None:
+                yield sentence("It is assumed that {condition} (line {line}).", condition=condition, line=line)
+            else:
+                yield sentence(
+                    "In {domains}, it is assumed that {condition} (line {line}).",
+                    domains=listed(one.domains),
+                    condition=condition,
+                    line=line,
+                )
         else:
             text = ruleset.source.text[one.span.start : one.span.end]
             yield sentence(

@@ -213,7 +213,9 @@ RULE other
 WHEN Ward THEN Stay
 """
     ran = cli("report", "rules.sleec", "--no-repairs", "--format", "markdown", files={"rules.sleec": rules})
-    _, together = ran.out.split("Rules with the same trigger, together")
+    assert "- In home, it is assumed that “late” is false (line 7)." in ran.out
+    own, together = ran.out.split("Rules with the same trigger, together")
+    assert "**Rule tray when “supper” occurs**" in own
     ward, home = together.split("In home:")
     assert "Contradiction: `CarryTray` and `HoldDoor` are required, but the NEVER in line 6 excludes this" in home
     assert "| yes |" not in home
@@ -316,6 +318,14 @@ def test_findings_and_problems_have_their_lines(form: str, cli: Cli) -> None:
     assert "(SLEEC101, line 4)" in page
     assert "Nothing was checked, because these rules cannot be read." in page
     assert ("b.sleec:2:6: error" if form == "html" else "- line 2: expected a trigger, but found `<`") in page
+
+
+def test_another_rule_may_apply_where_the_rule_of_a_table_does_not(cli: Cli) -> None:
+    rules = "WHEN A THEN B\nWHEN A AND c THEN D\n"
+    for form in ("html", "markdown"):
+        ran = cli("report", "a.sleec", "--format", form, files={"a.sleec": rules})
+        assert "he rule does not apply" in ran.out
+        assert "o rule applies" not in ran.out
 
 
 def test_relations_are_assumptions_of_the_verdict(cli: Cli) -> None:
