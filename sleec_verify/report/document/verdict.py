@@ -124,8 +124,8 @@ def _only(values: Mapping[str, str], *names: str) -> dict[str, str]:
 
 
 def scope_words(content: Content) -> str:
-    """``exceptions read as a cascade; under the assumption in line 4; in each of the domains home and ward; SHA-256 of
-    the text 85b0e45b31815e28…``"""
+    """``exceptions read as a cascade; under the assumption in line 4; examined in each of the domains home and ward;
+    SHA-256 of the text 85b0e45b31815e28…``"""
     ruleset, scope = content.ruleset, content.scope
     parts = [
         sentence("exceptions read as a cascade")
@@ -138,7 +138,9 @@ def scope_words(content: Content) -> str:
     elif ruleset.domains:
         names = listed(ruleset.domains)
         number = len(ruleset.domains)
-        parts.append(plural(number, "in the domain {names}", "in each of the domains {names}", names=names))
+        parts.append(
+            plural(number, "examined in the domain {names}", "examined in each of the domains {names}", names=names)
+        )
     parts.append(sentence("SHA-256 of the text {fingerprint}…", fingerprint=fingerprint(ruleset)[:16]))
     return joined("; ", parts)
 
@@ -221,7 +223,7 @@ def repetition(content: Content) -> str:
     words += [] if scope.domain is None else ["--domain", scope.domain]
     words += [] if content.outcome.untimed is None else ["--untimed", content.outcome.untimed]
     words += [] if scope.chains else ["--no-chains"]
-    return shlex.join([*words, ruleset.source.path])
+    return shlex.join([*words, "-" if ruleset.source.path == "<stdin>" else ruleset.source.path])
 
 
 def _assumptions(ruleset: Ruleset) -> list[Assume | Relation]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 from html.parser import HTMLParser
 from pathlib import Path
@@ -362,3 +363,11 @@ def test_a_missing_folder_and_an_input_are_no_output(cli: Cli) -> None:
     assert "the folder nowhere for x.html does not exist" in ran.err
     assert "a.sleec is an input" in cli("report", "a.sleec", "-o", "a.sleec").err
     assert Path("a.sleec").read_text("utf-8") == CONFLICT
+
+
+def test_the_command_repeats_the_checks_of_standard_input(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    rules = b"READING cascade\nDOMAIN home, ward\nWHEN A THEN B\n"
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(rules)))
+    ran = cli("report", "-")
+    assert "sleec-verify check --reading cascade -" in Page(ran.out).text.split("SHA-256:")[1]
+    assert "; examined in each of the domains home and ward; SHA-256" in Page(ran.out).text
