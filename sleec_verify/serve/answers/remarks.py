@@ -25,6 +25,8 @@ def remarks(ruleset: Ruleset, context: Context, answer: Entailment) -> Iterator[
             clauses=clauses,
         )
     yield from _windows(answer.schedule)
+    if answer.timed:
+        yield sentence("This answer does not look for contradictions at later times. The findings do.")
     yield from _consequences(answer.chain)
     missing = [quoted(name) for name in answer.missing if name in _measures(ruleset, context)]
     if missing:

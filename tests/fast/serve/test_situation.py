@@ -104,3 +104,10 @@ def test_a_text_that_was_checked_need_not_be_sent_again(tmp_path: Path) -> None:
     digest = page.post("check", text=TEXT)["of"]
     assert page.post("situation", of=digest, triggers=["Bell"]) == page.post("situation", text=TEXT, triggers=["Bell"])
     assert "send the text" in page_on(tmp_path).post("situation", 410, of=digest, triggers=["Bell"])["hint"]
+
+
+def test_rules_with_time_refer_to_the_findings(tmp_path: Path) -> None:
+    text = "RULE a\nWHEN Bell THEN Open WITHIN 9 seconds\nRULE b\nWHEN Bell THEN NOT Open WITHIN 1 minute\n"
+    said = "This answer does not look for contradictions at later times. The findings do."
+    assert said in asked(tmp_path, text)["notes"]
+    assert said not in asked(tmp_path)["notes"]
