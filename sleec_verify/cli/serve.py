@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 import click
 
 from sleec_verify.cli import exits, options
@@ -27,12 +29,17 @@ def command(path: str, port: int, no_browser: bool) -> int:
 
     Only this machine can open the page, and only with the address that the command prints.
     """
+    from sleec_runtime.errors import UnreadableFile
     from sleec_runtime.language import read_source
     from sleec_verify.cli.output import tell, write_line
     from sleec_verify.serve.server import serve
 
     if path == "-":
         raise click.UsageError("standard input cannot be saved; name a file")
+    if not os.path.lexists(path):
+        raise UnreadableFile(
+            f"file {path} does not exist", "check its name and folder; for new rules, create an empty file first"
+        )
     read_source(path)  # reports a file that cannot be read
 
     def started(address: str) -> None:

@@ -75,7 +75,9 @@ def test_a_busy_port(rules: Path, cli: Cli) -> None:
 
 
 def test_what_is_not_there_or_not_a_file(rules: Path, cli: Cli) -> None:
-    assert "file none.sleec does not exist" in cli("serve", "none.sleec").err
+    missing = cli("serve", "none.sleec").err
+    assert "file none.sleec does not exist" in missing
+    assert "for new rules, create an empty file first" in missing
     assert "a folder" in cli("serve", str(rules.parent)).err
     assert "standard input" in cli("serve", "-").err
 
