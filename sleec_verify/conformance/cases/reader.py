@@ -91,6 +91,11 @@ def read_each(path: Path, ruleset: Ruleset) -> tuple[Ruleset, list[Case | Scenar
     return ruleset, [_each(path, n, entry, ruleset) for n, entry in enumerate(_entries(path, table), 1)]
 
 
+def as_in_cases(path: Path, ruleset: Ruleset) -> Ruleset:
+    """The rules in the reading that the file of cases at `path` states, if it states one. Raises `CasesError`."""
+    return _read_as(path, _table(path), ruleset)
+
+
 def _each(path: Path, number: int, entry: dict[str, Any], ruleset: Ruleset) -> Case | Scenario | UnfitCase:
     try:
         return _case(path, number, entry, ruleset)

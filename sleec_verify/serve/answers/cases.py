@@ -8,7 +8,7 @@ from sleec_runtime.errors import SleecError
 from sleec_runtime.model import Ruleset
 from sleec_verify.conformance.cases.case import Case
 from sleec_verify.conformance.cases.fields import obligations_of
-from sleec_verify.conformance.cases.reader import UnfitCase, read_each
+from sleec_verify.conformance.cases.reader import UnfitCase, as_in_cases, read_each
 from sleec_verify.conformance.scenarios.expectations import unexpected
 from sleec_verify.conformance.scenarios.scenario import Scenario
 from sleec_verify.entailment.entailment import entail
@@ -69,7 +69,7 @@ def _unfit(case: UnfitCase) -> str:
 
 
 def add_case(session: Session, body: Body) -> dict[str, Json]:
-    """Add a case to the file. Its names are those of `text`, or of the file on disk."""
+    """Add a case to the file. Its names are those of `text`, or of the file on disk, whose rules must meet it."""
     text = body.text_or_none("text")
     ruleset = session.ruleset(session.file.state().text or "" if text is None else text)
     name, domain = body.text("name"), body.text_or_none("domain")
@@ -83,17 +83,24 @@ def add_case(session: Session, body: Body) -> dict[str, Json]:
     case = Case(
         name, tuple(sorted(context.triggers)), dict(context.conditions), due, forbidden or None, conflict, domain
     )
+    read = as_in_cases(session.cases.path, ruleset) if session.cases.exists() else ruleset
+    differences = joined("; ", [*_differences(read if domain is None else read.in_domain(domain), case)])
+    if differences:
+        other = (body.text_or_none("reading") or ruleset.reading) != read.reading
+        hint = f"the cases use the reading {read.reading}" if other else None
+        raise BadRequest(f"the rules do not meet this case: {differences}", hint)
     session.cases.add(case)
     return {"path": str(session.cases.path)}
 
 
 def run_cases(session: Session, body: Body) -> dict[str, Json]:
-    """Whether the rules of the text require what each case expects."""
+    """Whether the rules of the text require what each case expects. `digest` is that of the file of cases."""
     ruleset = session.ruleset(body.text("text"))
+    digest = session.cases.digest()
     if not session.cases.exists():
-        return {"results": []}
+        return {"results": [], "digest": digest}
     ruleset, found = read_each(session.cases.path, ruleset)
-    return {"results": [_result(ruleset, case) for case in found]}
+    return {"results": [_result(ruleset, case) for case in found], "digest": digest}
 
 
 def _result(ruleset: Ruleset, case: Case | Scenario | UnfitCase) -> Json:

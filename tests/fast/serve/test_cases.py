@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -136,3 +137,33 @@ def test_a_case_that_does_not_fit_the_rules(page: Page, tmp_path: Path, fields: 
     answer = page.client.post("/api/cases/add", json={**case, **fields}, headers=page.headers)
     assert answer.status_code == 400
     assert not (tmp_path / "rules.cases.toml").exists()
+
+
+CHAIN = "ASSUME NOT (a AND c)\nRULE r\nWHEN Bell THEN Open UNLESS a IN WHICH CASE Wait UNLESS b IN WHICH CASE Call\n"
+
+
+@pytest.mark.parametrize(
+    ("conditions", "obligations", "fields", "hint"),
+    [
+        ({"b": True}, ["Call"], {"reading": "priority"}, "the cases use the reading cascade"),
+        ({"a": True}, ["Open"], {}, None),
+        ({"a": True, "c": True}, ["Wait"], {}, None),
+    ],
+)
+def test_a_case_that_the_rules_do_not_meet_is_not_added(
+    page: Page, tmp_path: Path, conditions: object, obligations: object, fields: dict[str, object], hint: str | None
+) -> None:
+    case = {"name": "one", "triggers": ["Bell"], "conditions": conditions, "obligations": obligations, **fields}
+    answer = page.post("cases/add", 400, text=CHAIN, **case)
+    assert answer["message"].startswith("the rules do not meet this case: ")
+    assert answer["hint"] == hint
+    assert not (tmp_path / "rules.cases.toml").exists()
+
+
+def test_a_new_case_has_the_reading_that_the_file_states(page: Page, tmp_path: Path) -> None:
+    (tmp_path / "rules.cases.toml").write_text('reading = "priority"\n', encoding="utf-8")
+    case: dict[str, Any] = {"name": "one", "triggers": ["Bell"], "conditions": {"b": True}}
+    answer = page.post("cases/add", 400, text=CHAIN, **case, obligations=["Open"])
+    assert answer["hint"] == "the cases use the reading priority"
+    page.post("cases/add", text=CHAIN, **case, obligations=["Call"], reading="priority")
+    assert [one["passed"] for one in page.post("cases/run", text=CHAIN)["results"]] == [True]
