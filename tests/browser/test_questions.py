@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from playwright.sync_api import expect
 
-from tests.browser.actions import editor, finding, lines, write
+from tests.browser.actions import editor, finding, flip, lines, write
 
 RULES = """READING priority
 
@@ -56,6 +56,25 @@ def test_a_question_sets_the_switches(serve, show) -> None:
     page.get_by_role("combobox", name="What to look for").select_option("readings")
     page.get_by_role("button", name="Show me").press("Enter")
     expect(page.locator(".search-answer.none")).to_be_visible()
+
+
+def test_an_answer_goes_when_it_no_longer_holds(serve, show) -> None:
+    page = show(serve(RULES))
+    said = page.locator(".search-answer")
+    page.get_by_role("button", name="Show me").click()
+    expect(said).to_contain_text("The switches show this situation")
+    flip(page, "air is bad")
+    expect(said).to_have_count(0)
+    page.get_by_role("combobox", name="What to look for").select_option("readings")
+    page.get_by_role("button", name="Show me").click()
+    expect(said).to_contain_text("This is proved")
+    write(page, RULES + "UNLESS a IN WHICH CASE Wait UNLESS b IN WHICH CASE Call\n")
+    expect(said).to_have_count(0)
+    page.get_by_role("button", name="Show me").click()
+    expect(said).to_contain_text("The switches show this situation")
+    page.get_by_text("Reading and domain").click()
+    page.get_by_role("combobox", name="Reading").select_option("cascade")
+    expect(said).to_have_count(0)
 
 
 def test_two_versions_side_by_side(serve, show) -> None:

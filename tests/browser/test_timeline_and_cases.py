@@ -114,3 +114,60 @@ def test_cases_follow_the_text_and_their_file(serve, show) -> None:
     expect(page.locator(".case.failed")).to_be_visible()
     cases.write_text("not toml", encoding="utf-8")
     expect(page.get_by_role("tabpanel").get_by_role("alert")).to_contain_text("rules.cases.toml")
+
+
+def test_the_domain_counts_for_the_timeline_and_is_that_of_a_finding(serve, show) -> None:
+    text = "DOMAIN home\nRULE a\nWHEN Smoke THEN Alarm WITHIN 9 seconds\nDOMAIN ward\nRULE b\nWHEN Smoke THEN Call\n"
+    page = show(serve(text + "RULE c\nWHEN Smoke AND Drill THEN NOT Call\n"))
+    page.get_by_role("tab", name="Timeline").click()
+    place(page, "trigger", "Smoke", 0)
+    expect(page.locator(".windows li")).to_have_count(2)
+    page.get_by_text("Reading and domain").click()
+    page.get_by_role("combobox", name="Domain").select_option("home")
+    expect(page.locator(".windows li")).to_contain_text(["alarm"])
+    expect(page.locator(".windows li")).to_have_count(1)
+    page.locator(".finding.error").first.get_by_role("button", name="Show this situation").click()
+    expect(page.locator(".contradiction")).to_be_visible()
+    expect(page.get_by_role("combobox", name="Domain")).to_have_value("ward")
+
+
+def test_a_case_says_what_the_text_requires(serve, show) -> None:
+    page = show(serve("WHEN BellRings THEN Open UNLESS a IN WHICH CASE Wait UNLESS b IN WHICH CASE Call\n"))
+    page.get_by_text("Reading and domain").click()
+    reading = page.get_by_role("combobox", name="Reading")
+    reading.select_option("priority")
+    flip(page, "bell rings")
+    flip(page, "b")
+    expect(page.locator(".answer .must li")).to_have_text(["call"])
+    name = page.get_by_role("textbox", name="Name of the case")
+    name.fill("one")
+    name.press("Enter")
+    expect(page.locator(".save-case .refusal")).to_contain_text("the cases use the reading cascade")
+    reading.select_option("")
+    name.press("Enter")
+    expect(page.locator(".save-case .done")).to_be_visible()
+
+
+def test_a_case_is_that_of_the_last_switch(serve, show) -> None:
+    server = serve("WHEN BellRings THEN Open UNLESS Asleep IN WHICH CASE Wait\n")
+    page = show(server)
+    flip(page, "bell rings")
+    expect(page.locator(".answer .must li")).to_have_text(["open"])
+    page.get_by_role("textbox", name="Name of the case").fill("one")
+    page.route("**/api/situation", lambda route: (page.wait_for_timeout(300), route.continue_()))
+    page.get_by_role("switch", name="asleep").evaluate("one => one.click()")
+    page.get_by_role("button", name="Save this situation").click()
+    expect(page.locator(".save-case .done")).to_be_visible()
+    assert 'obligations = ["Wait"]' in server.path.with_name("rules.cases.toml").read_text(encoding="utf-8")
+
+
+def test_results_go_when_the_file_of_cases_changes(serve, show) -> None:
+    server = serve("WHEN BellRings THEN Open\n")
+    cases = server.path.with_name("rules.cases.toml")
+    cases.write_text('[[case]]\nname = "one"\nwhen = ["BellRings"]\nobligations = ["Open"]\n', encoding="utf-8")
+    page = show(server)
+    page.get_by_role("tab", name="Cases").click()
+    page.get_by_role("button", name="Run all cases").click()
+    expect(page.locator(".case.passed")).to_be_visible()
+    cases.write_text(cases.read_text(encoding="utf-8").replace('["Open"]', "[]"), encoding="utf-8")
+    expect(page.locator(".case.not-run")).to_contain_text("nothing is required")

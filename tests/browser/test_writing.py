@@ -140,6 +140,32 @@ def test_two_pages_on_one_file_never_overwrite_each_other(serve, show) -> None:
     expect(editor(first)).to_contain_text("// mine")
 
 
+def test_an_unsaved_text_survives_a_save_on_another_page(serve, show) -> None:
+    server = serve(CURTAINS)
+    first, second = show(server), show(server)
+    write(first, CONFLICT)
+    with second.expect_response(lambda response: response.url.endswith("/api/draft")):
+        write(second, CURTAINS + "// mine\n")
+    first.keyboard.press("Control+s")
+    with second.expect_response(lambda response: response.url.endswith("/api/draft")):
+        expect(second.get_by_role("alert")).to_contain_text("changed on disk while you were writing")
+    first.close()
+    second.close()
+    third = show(server)
+    expect(third.get_by_role("alert")).to_contain_text("changed on disk while you were writing")
+    expect(editor(third)).to_contain_text("// mine")
+
+
+def test_a_file_that_cannot_be_read_leaves_the_text(serve, show) -> None:
+    server = serve(CURTAINS)
+    page = show(server)
+    server.path.write_bytes(b"\xff\xfe")
+    expect(page.get_by_role("alert")).to_contain_text("The page can no longer read rules.sleec")
+    expect(editor(page)).to_contain_text("OpenCurtains")
+    server.path.write_text(CURTAINS, encoding="utf-8")
+    expect(page.get_by_role("alert")).to_have_count(0)
+
+
 def test_their_version_can_be_taken(serve, show) -> None:
     server = serve(CURTAINS)
     page = show(server)

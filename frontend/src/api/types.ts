@@ -159,6 +159,7 @@ export interface Case {
   name: string;
   situation: Witness | null;
   sentence: string;
+  domain?: string | null;
 }
 
 export interface CaseResult {

@@ -148,6 +148,7 @@ export const de: Messages = {
   conflictFound: "Die Datei auf dem Datenträger wurde geändert.",
   conflictText: "{name} wurde auf dem Datenträger geändert, während Sie geschrieben haben. Die Seite überschreibt nichts, bevor Sie wählen.",
   conflictDeleted: "{name} wurde gelöscht. Ihr Text steht noch auf dieser Seite.",
+  conflictProblem: "Die Seite kann {name} nicht mehr lesen und deshalb nicht speichern. Ihr Text steht noch auf dieser Seite.",
   conflictSave: "Erneut speichern",
   conflictKeep: "Meine Fassung behalten",
   conflictTake: "Die andere Fassung übernehmen",

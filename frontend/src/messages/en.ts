@@ -146,6 +146,7 @@ export const en = {
   conflictFound: "The file changed on disk.",
   conflictText: "{name} changed on disk while you were writing. The page overwrites nothing until you choose.",
   conflictDeleted: "{name} was deleted. Your text is still on this page.",
+  conflictProblem: "The page can no longer read {name}, so it cannot save. Your text is still on this page.",
   conflictSave: "Save again",
   conflictKeep: "Keep my version",
   conflictTake: "Take the other version",

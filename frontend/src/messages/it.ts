@@ -148,6 +148,7 @@ export const it: Messages = {
   conflictFound: "Il file è cambiato su disco.",
   conflictText: "{name} è cambiato su disco mentre scrivevi. La pagina non sovrascrive niente finché non scegli.",
   conflictDeleted: "{name} è stato eliminato. Il tuo testo è ancora su questa pagina.",
+  conflictProblem: "La pagina non riesce più a leggere {name}, quindi non può salvare. Il tuo testo è ancora su questa pagina.",
   conflictSave: "Salva di nuovo",
   conflictKeep: "Conserva la mia versione",
   conflictTake: "Prendi l’altra versione",

@@ -1,14 +1,14 @@
 /** The expected cases: the file of cases, and the results of the last run. */
 
-import { computed, effect, signal } from "@preact/signals";
+import { batch, computed, effect, signal } from "@preact/signals";
 import { Latest } from "../api/latest";
 import { ask, Gone, Refusal, server } from "../api/requests";
-import type { Case, CaseResult } from "../api/types";
+import type { Case, CaseResult, SituationAnswer } from "../api/types";
 import { language, t } from "../messages";
 import { goodText } from "./analysis";
 import { speak } from "./announcements";
 import { casesDigest } from "./document";
-import { answer, scope, situation } from "./situation";
+import { scope, situation } from "./situation";
 
 /** The cases, as they fit the last complete text; null before the first answer. */
 export const cases = signal<Case[] | null>(null);
@@ -19,15 +19,17 @@ export const refusal = signal<string | null>(null);
 /** The name of the case that was saved last. */
 export const savedCase = signal<string | null>(null);
 
-const lastRun = signal<{ text: string | null; language: string; results: Record<string, CaseResult> }>({
+const lastRun = signal<{ text: string | null; language: string; digest: string | null; results: Record<string, CaseResult> }>({
   text: null,
   language: "",
+  digest: null,
   results: {},
 });
-/** The results for the last complete text, by the name of the case. */
-export const results = computed(() =>
-  lastRun.value.text === goodText.value && lastRun.value.language === language.value ? lastRun.value.results : {},
-);
+/** The results for the last complete text and the present file of cases, by the name of the case. */
+export const results = computed(() => {
+  const { text, language: spoken, digest, results: found } = lastRun.value;
+  return text === goodText.value && spoken === language.value && digest === casesDigest.value ? found : {};
+});
 
 /** Whether the server did it. */
 async function attempt(action: () => Promise<void>): Promise<boolean> {
@@ -62,11 +64,10 @@ export function keepCases(): () => void {
 export function saveCase(name: string): Promise<boolean> {
   savedCase.value = null;
   return attempt(async () => {
-    const found = answer.value;
-    if (!found) return;
-    const { obligations, prohibitions } = found;
-    const expected = { obligations, prohibitions, conflict: !found.consistent, domain: scope.value.domain };
-    await ask("cases/add", { text: goodText.value, name, ...situation.value, ...expected });
+    // The answer on the page may belong to the situation before the last switch.
+    const asked = { text: goodText.value, ...situation.value, ...scope.value };
+    const { obligations, prohibitions, consistent } = await ask<SituationAnswer>("situation", asked);
+    await ask("cases/add", { ...asked, name, obligations, prohibitions, conflict: !consistent });
     savedCase.value = name;
   });
 }
@@ -74,8 +75,11 @@ export function saveCase(name: string): Promise<boolean> {
 export function runCases(): Promise<boolean> {
   return attempt(async () => {
     const run = { text: goodText.value, language: language.value };
-    const found = (await ask<{ results: CaseResult[] }>("cases/run", run)).results;
-    lastRun.value = { ...run, results: Object.fromEntries(found.map((result) => [result.name, result])) };
+    const { results: found, digest } = await ask<{ results: CaseResult[]; digest: string | null }>("cases/run", run);
+    batch(() => {
+      casesDigest.value = digest;
+      lastRun.value = { ...run, digest, results: Object.fromEntries(found.map((result) => [result.name, result])) };
+    });
     speak(t("casesResult", { passed: found.filter((result) => result.passed).length, all: found.length }));
   });
 }

@@ -61,8 +61,10 @@ function keepDrafts(): void {
   };
   effect(() => {
     const now = draft();
+    // A page that saves the file removes the draft of all pages.
+    const isKnown = server.value === "here" && conflict.value === null;
     clearTimeout(timer);
-    if (now.text === kept && server.value === "here") return;
+    if (isKnown && now.text === kept) return;
     timer = window.setTimeout(() => void keep(now), DRAFT_DELAY);
   });
   addEventListener("pagehide", keepOnLeaving);

@@ -4,8 +4,8 @@ import { batch, computed, effect, signal } from "@preact/signals";
 import { Latest } from "../api/latest";
 import { withOffsets } from "../api/offsets";
 import type { Condition, Question, SearchAnswer, SituationAnswer, Value, Witness } from "../api/types";
-import { language } from "../messages";
-import { ask, Gone, Refusal, server } from "../api/requests";
+import { language, t } from "../messages";
+import { Refusal, server } from "../api/requests";
 import { analysis, goodText, names } from "./analysis";
 import { speak } from "./announcements";
 
@@ -16,9 +16,22 @@ export const reading = signal<string | null>(null);
 export const domain = signal<string | null>(null);
 export const answer = signal<SituationAnswer | null>(null);
 export const refusal = signal<string | null>(null);
-const lastSearch = signal<(SearchAnswer & { language: string }) | null>(null);
-/** The answer to the last search, in the present language. */
-export const searchAnswer = computed(() => (lastSearch.value?.language === language.value ? lastSearch.value : null));
+interface Search {
+  answer: SearchAnswer["answer"] | "asked";
+  sentence: string;
+  /** What was asked about: the text, the language, the reading and the domain. */
+  about: object;
+  /** The switches that show the situation that was found. */
+  shown: object | null;
+}
+
+const lastSearch = signal<Search | null>(null);
+/** The answer to the last search, while it holds: the text is the same, and the switches show what was found. */
+export const searchAnswer = computed(() => {
+  const last = lastSearch.value;
+  if (!last || !sameValues(last.about, about.value)) return null;
+  return last.shown === null || sameValues(last.shown, switches.value) ? last : null;
+});
 
 /** Null is a measure that is not given. */
 export function valueOf(condition: Condition): Value | null {
@@ -74,8 +87,23 @@ export function show(found: Witness): void {
   });
 }
 
+/** Asks for the domain of a finding or case, and for the reading of the text; both are about these. */
+export function answerForDomain(wanted: string | null): void {
+  reading.value = null;
+  domain.value = wanted;
+}
+
 export function clear(): void {
   show({ triggers: [], conditions: {} });
+}
+
+/** What an answer of a search depends on, besides the question. */
+const about = computed(() => ({ text: goodText.value, language: language.value, ...scope.value }));
+const switches = computed(() => ({ triggers: triggers.value, values: values.value }));
+
+function sameValues(one: object, other: object): boolean {
+  const [ones, others] = [Object.values(one), Object.values(other)];
+  return ones.every((value, number) => value === others[number]);
 }
 
 const latest = new Latest();
@@ -110,21 +138,26 @@ async function answerFor(text: string, asked: object): Promise<void> {
   }
 }
 
+const latestSearch = new Latest();
+
 export async function search(question: Question): Promise<void> {
-  if (goodText.value === null) return;
-  const asked = language.value;
+  const asked = about.value;
+  if (asked.text === null) return;
+  const pending: Search = { answer: "asked", sentence: t("checking"), about: asked, shown: null };
+  lastSearch.value = pending;
   try {
-    const found = await ask<SearchAnswer>("search", {
-      text: goodText.value,
-      question,
-      ...scope.value,
+    const found = await latestSearch.ask<SearchAnswer>("search", { ...asked, question });
+    if (!found || !sameValues(asked, about.value)) return;
+    batch(() => {
+      if (found.situation) show(found.situation);
+      const { answer, sentence, situation } = found;
+      lastSearch.value = { answer, sentence, about: asked, shown: situation && switches.value };
     });
-    lastSearch.value = { ...found, language: asked };
-    if (found.situation) show(found.situation);
     speak(found.sentence);
   } catch (error) {
-    if (error instanceof Gone) return;
     if (!(error instanceof Refusal)) throw error;
-    lastSearch.value = { answer: "unknown", situation: null, sentence: error.message, language: asked };
+    lastSearch.value = { answer: "unknown", sentence: error.message, about: asked, shown: null };
+  } finally {
+    if (lastSearch.value === pending) lastSearch.value = null;
   }
 }

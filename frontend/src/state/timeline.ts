@@ -6,7 +6,7 @@ import { Refusal, server } from "../api/requests";
 import { language } from "../messages";
 import type { Finding, TimedEvent, TimelineAnswer, Value } from "../api/types";
 import { goodText, names } from "./analysis";
-import { show, situation } from "./situation";
+import { scope, show, situation } from "./situation";
 
 /** `wait` is a time at which nothing happens, to see what is missed until then. */
 export type PlacedKind = "trigger" | "executed" | "true" | "false" | "wait";
@@ -93,7 +93,7 @@ export function keepTiming(): void {
     if (text === null || events.value.length === 0) return void (answer.value = { windows: [], problems: [] });
     if (server.value !== "here") return;
     latest
-      .ask<TimelineAnswer>("timeline", { text, events: events.value, language: language.value })
+      .ask<TimelineAnswer>("timeline", { text, events: events.value, ...scope.value, language: language.value })
       .then((found) => found && batch(() => (answer.value = found)))
       .catch((error: unknown) => {
         if (!(error instanceof Refusal)) throw error;

@@ -30,7 +30,7 @@ export function Banners() {
       )}
       {disk && (
         <Banner kind="alert">
-          <p>{t(isDeleted ? "conflictDeleted" : "conflictText", { name: fileName.value })}</p>
+          <p>{t(isDeleted ? "conflictDeleted" : disk.problem ? "conflictProblem" : "conflictText", { name: fileName.value })}</p>
           {disk.problem && <p>{disk.problem}</p>}
           {hasText && (
             <button type="button" onClick={() => show("disk")}>

@@ -6,7 +6,7 @@ import { goToView } from "../focus";
 import { t } from "../messages";
 import { waiting } from "../state/analysis";
 import { cases, casesFile, keepCases, refusal, results, runCases } from "../state/cases";
-import { show } from "../state/situation";
+import { answerForDomain, show } from "../state/situation";
 import { Paged } from "./Paged";
 import { Sentence } from "./Sentence";
 
@@ -60,6 +60,7 @@ function CaseItem({ one }: { one: Case }) {
           aria-label={`${t("caseShow")}: ${one.name}`}
           onClick={() => {
             if (one.situation) show(one.situation);
+            answerForDomain(one.domain ?? null);
             goToView("situation");
           }}
         >

@@ -8,7 +8,7 @@ import { analysis, answeredText, findings, goodText, problems, stale, undecided,
 import type { Finding, Problem } from "../api/types";
 import { repairsFor } from "../state/repairs";
 import { selectedFinding } from "../state/selection";
-import { domain, show } from "../state/situation";
+import { answerForDomain, show } from "../state/situation";
 import { canShow, showEvents } from "../state/timeline";
 import { Paged } from "./Paged";
 import { Repairs } from "./Repairs";
@@ -87,6 +87,7 @@ function FindingItem({ finding }: { finding: Finding }) {
             type="button"
             onClick={() => {
               if (finding.timeline) showEvents(finding.timeline);
+              answerForDomain(finding.domain);
               goToView("timeline");
             }}
           >
@@ -98,7 +99,7 @@ function FindingItem({ finding }: { finding: Finding }) {
             type="button"
             onClick={() => {
               if (finding.witness) show(finding.witness);
-              domain.value = finding.domain;
+              answerForDomain(finding.domain);
               goToView("situation");
             }}
           >

@@ -3,12 +3,13 @@
 import { useState } from "preact/hooks";
 import { server } from "../api/requests";
 import { t } from "../messages";
-import { analysis, goodText, names, waiting } from "../state/analysis";
+import { goodText, names, waiting } from "../state/analysis";
 import { ruleAtCursor } from "../state/selection";
-import { clear, domain, reading, situation } from "../state/situation";
+import { clear, situation } from "../state/situation";
 import { Chosen } from "./Chosen";
 import { Obligations } from "./Obligations";
 import { SaveCase } from "./SaveCase";
+import { Scope } from "./Scope";
 import { Search } from "./Search";
 import { Switches } from "./Switches";
 
@@ -55,36 +56,5 @@ export function Situation() {
       <Scope />
       <SaveCase />
     </div>
-  );
-}
-
-/** The reading of chains of exceptions, and the domain. */
-function Scope() {
-  const domains = analysis.value.domains ?? [];
-  return (
-    <details class="settings">
-      <summary>{t("settings")}</summary>
-      <label>
-        {t("reading")}
-        <select value={reading.value ?? ""} onChange={(event) => (reading.value = event.currentTarget.value || null)}>
-          <option value="">{t("readingOfFile")}</option>
-          <option value="cascade">{t("readingCascade")}</option>
-          <option value="priority">{t("readingPriority")}</option>
-        </select>
-      </label>
-      {domains.length > 0 && (
-        <label>
-          {t("domain")}
-          <select value={domain.value ?? ""} onChange={(event) => (domain.value = event.currentTarget.value || null)}>
-            <option value="">{t("allDomains")}</option>
-            {domains.map((name) => (
-              <option key={name} value={name}>
-                {name}
-              </option>
-            ))}
-          </select>
-        </label>
-      )}
-    </details>
   );
 }

@@ -9,6 +9,7 @@ import { answer, end, fixedEnd, move, placed, remove, type Placed } from "../sta
 import { spoken } from "../words";
 import { AddEvent } from "./AddEvent";
 import { duration } from "./duration";
+import { Scope } from "./Scope";
 import { Sentence } from "./Sentence";
 
 const SIGNS: Record<Placed["kind"], string> = { trigger: "⚑", executed: "✓", true: "◉", false: "○", wait: "…" };
@@ -28,6 +29,7 @@ export function Timeline() {
       <AddEvent />
       <h3 id="timeline-events">{t("timelineEvents")}</h3>
       <p class="hint">{t("timelineConditions")}</p>
+      <Scope />
       {placed.value.length === 0 ? <p class="empty">{t("timelineEmpty")}</p> : <p class="hint">{t("timelineHelp")}</p>}
       {placed.value.length > 0 && (
         <div class="axis" role="group" aria-labelledby="timeline-events">
