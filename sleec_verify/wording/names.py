@@ -1,16 +1,9 @@
-"""Names of a ruleset, read as words."""
+"""Names of a ruleset, read as words. `frontend/src/words.ts` does the same on the page."""
 
 from __future__ import annotations
 
-import re
 from functools import lru_cache
-
-_WORD = re.compile(
-    r"[^\W\d_a-z](?:[^\W_a-z])+(?=[A-Z][a-z])"  # an acronym before a word: HTTPServer
-    r"|[^\W\d_]?[^\W\dA-Z_]+(?:['’][^\W\d_]+)*"  # a word, with a capital letter or without
-    r"|[^\W\d_a-z][^\W_a-z]*"  # an acronym, or a letter with a number
-    r"|\d+"
-)
+from unicodedata import category
 
 
 @lru_cache(maxsize=4096)
@@ -19,8 +12,24 @@ def spoken(name: str) -> str:
     keep their capital letters, and a phrase of several words stays as it is."""
     if " " in name or len(name) == 1:
         return name
-    words = _WORD.findall(name)
-    return " ".join(word if len(word) > 1 and word.isupper() else word.lower() for word in words) or name
+    words = [""]
+    for here, after in zip(name, name[1:] + " "):
+        if category(here)[0] == "P" and here not in "'’":
+            words.append("")
+            continue
+        if _begins_word(words[-1], here, after):
+            words.append("")
+        words[-1] += here
+    return " ".join(word if len(word) > 1 and word.isupper() else word.lower() for word in words if word) or name
+
+
+def _begins_word(word: str, here: str, after: str) -> bool:
+    """Whether a new word begins at the character `here`. An acronym is in capital letters, and may have numbers."""
+    if here.isupper():
+        return not word.isupper() or after.islower()
+    if here.isdecimal():
+        return not (word.isupper() or word.isdecimal())
+    return here.isalpha() and (word.isdecimal() or (len(word) > 1 and word.isupper()))
 
 
 def is_phrase(name: str) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from playwright.sync_api import expect
 
+from sleec_verify.wording.names import spoken
 from tests.browser.actions import editor, flip, write
 
 RULES = """READING priority
@@ -53,6 +54,14 @@ def test_the_answer_stays_while_a_rule_is_half_written(serve, show) -> None:
     expect(page.locator(".answer .must")).to_be_visible()
     write(page, RULES.replace("AskParents", "CallParents"))
     expect(page.locator(".answer .must li")).to_have_text(["call parents"])
+
+
+def test_names_read_as_in_the_sentences_of_the_server(serve, show) -> None:
+    names = ["CallADoctor", "AEDNeeded", "within10Minutes", "hasB12", "TürÖffnen", "r_moderate", "Bed12", "B", "R2D2x"]
+    names += ["der Patient fällt", "don’tCall", "\u0928\u092e\u0938\u094d\u0924\u0947"]
+    page = show(serve(f"WHEN Bell THEN Open UNLESS {' OR '.join(names)} IN WHICH CASE Wait\n"))
+    shown = page.get_by_role("group", name="What is true").locator("label")
+    expect(shown).to_have_text([spoken(name) for name in sorted(names)])
 
 
 def test_other_languages(serve, show) -> None:

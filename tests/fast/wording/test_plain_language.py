@@ -39,6 +39,11 @@ WHEN the user calls THEN answer the call
         ("A", "A"),
         ("the user calls", "the user calls"),
         ("_", "_"),
+        ("CallADoctor", "call a doctor"),
+        ("TürÖffnen", "tür öffnen"),
+        ("das Café Öffnen", "das Café Öffnen"),
+        ("don’tCall", "don’t call"),
+        ("\u0928\u092e\u0938\u094d\u0924\u0947", "\u0928\u092e\u0938\u094d\u0924\u0947"),
     ],
 )
 def test_names_read_as_words(name: str, words: str) -> None:
