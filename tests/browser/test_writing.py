@@ -40,6 +40,34 @@ def test_half_a_rule_keeps_the_last_verdict_and_marks_it_as_old(serve, show) -> 
     expect(editor(page).locator(".mark-problem").first).to_be_visible()
 
 
+def test_findings_without_an_answer_are_marked_as_old(serve, show) -> None:
+    page = show(serve(CURTAINS))
+    waiting = []
+    page.route("**/api/check", lambda route: waiting.append(route))
+    write(page, CONFLICT)
+    expect(page.locator(".verdict.stale")).to_contain_text("Proved")
+    expect(page.get_by_text("from an earlier text")).to_be_visible()
+    expect(page.locator(".answer").get_by_text("This answer is for an earlier text")).to_be_visible()
+    waiting[-1].continue_()
+    expect(page.locator(".verdict")).to_contain_text("The rules contradict each other")
+    expect(page.locator(".old")).to_have_count(0)
+    page.unroute("**/api/check")
+    refusal = {"message": "internal error", "hint": None}
+    page.route("**/api/check", lambda route: route.fulfill(status=400, json=refusal))
+    write(page, CURTAINS)
+    expect(page.get_by_role("alert")).to_contain_text("internal error")
+    expect(page.locator(".verdict.stale")).to_contain_text("The rules contradict each other")
+
+
+def test_the_timeline_of_a_half_written_text_is_marked_as_old(serve, show) -> None:
+    page = show(serve(CURTAINS))
+    page.get_by_role("tab", name="Timeline").click()
+    page.get_by_role("button", name="Add", exact=True).click()
+    expect(page.locator(".windows li")).to_have_count(1)
+    write(page, CURTAINS + "WHEN")
+    expect(page.locator(".timeline").get_by_text("This answer is for the last complete text")).to_be_visible()
+
+
 def test_a_change_that_is_taken_back_at_once_leaves_no_problem(serve, show) -> None:
     page = show(serve(CONFLICT))
     expect(finding(page, "conflict").first).to_be_visible()

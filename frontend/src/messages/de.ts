@@ -65,6 +65,7 @@ export const de: Messages = {
   clauseDecides: "Ausnahme {number} gilt",
   notActive: "die Regel gilt nicht",
   answerOld: "Diese Antwort gilt für den letzten vollständigen Text.",
+  answerLate: "Diese Antwort gilt für einen früheren Text. Die Seite prüft den neuen noch.",
   answerWaits: "Diese Antwort ist vielleicht nicht aktuell: Der Server antwortet nicht.",
   searchTitle: "Situation suchen, in der …",
   searchObligation: "eine Handlung geboten ist",

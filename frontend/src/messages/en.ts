@@ -63,6 +63,7 @@ export const en = {
   clauseDecides: "exception {number} applies",
   notActive: "the rule does not apply",
   answerOld: "This answer is for the last complete text.",
+  answerLate: "This answer is for an earlier text. The page still checks the new one.",
   answerWaits: "This answer may be out of date: the server does not answer.",
   searchTitle: "Show me a situation in which …",
   searchObligation: "an obligation is required",

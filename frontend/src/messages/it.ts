@@ -65,6 +65,7 @@ export const it: Messages = {
   clauseDecides: "si applica l’eccezione {number}",
   notActive: "la regola non si applica",
   answerOld: "Questa risposta vale per l’ultimo testo completo.",
+  answerLate: "Questa risposta vale per un testo precedente. La pagina sta ancora controllando quello nuovo.",
   answerWaits: "Questa risposta potrebbe non essere aggiornata: il server non risponde.",
   searchTitle: "Mostrami una situazione in cui …",
   searchObligation: "un’azione è obbligatoria",

@@ -4,10 +4,10 @@ import { batch, computed, effect, signal } from "@preact/signals";
 import { completed, type AnalysisChange } from "../api/changes";
 import { Latest } from "../api/latest";
 import { withOffsets } from "../api/offsets";
-import { server } from "../api/requests";
+import { Refusal, server } from "../api/requests";
 import type { Analysis, Check, Finding, Names, Problem, Rule } from "../api/types";
 import { language } from "../messages";
-import { text } from "./document";
+import { failure, text } from "./document";
 
 const SEVERITIES = ["error", "warning", "note"];
 
@@ -34,8 +34,12 @@ export const problems = signal<Problem[]>([]);
 export const answeredText = signal<string | null>(null);
 /** The analysis belongs to an earlier text. */
 export const old = computed(() => goodText.value !== null && goodText.value !== text.value);
+/** The answer takes long, or the server refused it. */
+const late = signal(false);
+/** The analysis is of an earlier text, and the page still waits for that of the present one. */
+export const unanswered = computed(() => old.value && !waiting.value && (late.value || server.value !== "here"));
 /** Without an answer, and for a text with problems, the findings are those of an earlier text. */
-export const stale = computed(() => waiting.value || (old.value && server.value !== "here"));
+export const stale = computed(() => waiting.value || unanswered.value);
 /** The text has problems, so its analysis waits. */
 export const waiting = computed(() => problems.value.length > 0);
 
@@ -52,7 +56,11 @@ export const undecided = computed<Check[]>(() => analysis.value.checks.filter((o
 /** The text that is being analysed, or was last. */
 export let sentText: string | null = null;
 
+/** How long the findings of an earlier text are shown without a mark, so that they do not flicker. */
+const PATIENCE = 1000;
+
 let sentLanguage = "";
+let timer: number | null = null;
 const latest = new Latest();
 
 export function keepChecking(): void {
@@ -66,9 +74,21 @@ export function keepChecking(): void {
 async function check(sent: string, asked: string): Promise<void> {
   sentText = sent;
   sentLanguage = asked;
-  const answer = await latest.ask<AnalysisChange>("check", { text: sent, since: analysis.peek().version });
+  timer ??= window.setTimeout(() => (late.value = true), PATIENCE);
+  let answer: AnalysisChange | null;
+  try {
+    answer = await latest.ask<AnalysisChange>("check", { text: sent, since: analysis.peek().version });
+  } catch (error) {
+    if (!(error instanceof Refusal)) throw error;
+    late.value = true;
+    failure.value = { message: error.message, hint: error.hint };
+    return;
+  }
   if (!answer) return;
+  clearTimeout(timer);
+  timer = null;
   batch(() => {
+    late.value = false;
     answeredText.value = sent;
     problems.value = withOffsets(answer.problems, sent);
     if (answer.problems.length === 0) {

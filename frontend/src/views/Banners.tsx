@@ -12,6 +12,11 @@ function toText(_done: unknown): void {
   editorHooks.focus();
 }
 
+/** A path as shells read it. */
+function asArgument(path: string): string {
+  return /\s/.test(path) ? `"${path}"` : path;
+}
+
 function show(which: "saved" | "disk"): void {
   against.value = which;
   goToView("compare");
@@ -25,7 +30,7 @@ export function Banners() {
     <div class="banners">
       {server.value !== "here" && (
         <Banner kind="alert">
-          <p>{server.value === "gone" ? t("gone", { path: path.value }) : t("lost")}</p>
+          <p>{server.value === "gone" ? t("gone", { path: asArgument(path.value) }) : t("lost")}</p>
         </Banner>
       )}
       {disk && (

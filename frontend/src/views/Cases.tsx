@@ -4,9 +4,9 @@ import { useEffect } from "preact/hooks";
 import type { Case } from "../api/types";
 import { goToView } from "../focus";
 import { t } from "../messages";
-import { waiting } from "../state/analysis";
 import { cases, casesFile, keepCases, refusal, results, runCases } from "../state/cases";
 import { answerForDomain, show } from "../state/situation";
+import { Old } from "./Old";
 import { Paged } from "./Paged";
 import { Sentence } from "./Sentence";
 
@@ -27,7 +27,7 @@ export function Cases() {
           <p>{t("casesResult", { passed: run.filter((result) => result.passed).length, all: run.length })}</p>
         )}
       </div>
-      {waiting.value && <p class="old">{t("answerOld")}</p>}
+      <Old />
       {[problem, refusal.value].map((said) => said !== null && <p key={said} role="alert" class="refusal"><Sentence text={said} /></p>)}
       {all?.length === 0 && problem === null && <p class="empty">{t("casesNone")}</p>}
       {all && <Paged kind="list" items={all} render={(one) => <CaseItem key={one.name} one={one} />} />}

@@ -1,10 +1,9 @@
 /** The verdict and the findings as sentences, each linked with its place in the text. */
 
-import { server } from "../api/requests";
 import { goTo, present } from "../editor/editor";
 import { goToView } from "../focus";
 import { t } from "../messages";
-import { analysis, answeredText, findings, goodText, problems, stale, undecided, waiting } from "../state/analysis";
+import { analysis, answeredText, findings, goodText, problems, stale, unanswered, undecided, waiting } from "../state/analysis";
 import type { Finding, Problem } from "../api/types";
 import { repairsFor } from "../state/repairs";
 import { selectedFinding } from "../state/selection";
@@ -21,7 +20,7 @@ export function Findings() {
   return (
     <section class="findings" aria-labelledby="findings-title">
       <h2 id="findings-title">
-        {t("findings")} {stale.value && goodText.value !== null && <span class="old">{t(server.value === "here" ? "oldMark" : "earlierMark")}</span>}
+        {t("findings")} {stale.value && goodText.value !== null && <span class="old">{t(unanswered.value ? "earlierMark" : "oldMark")}</span>}
       </h2>
       <div role="status">
         {waiting.value && <p class="problem-title">{t("problems")}</p>}

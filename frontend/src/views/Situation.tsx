@@ -1,13 +1,13 @@
 /** The situation with its switches, and what the rules require in it. */
 
 import { useState } from "preact/hooks";
-import { server } from "../api/requests";
 import { t } from "../messages";
-import { goodText, names, waiting } from "../state/analysis";
+import { names } from "../state/analysis";
 import { ruleAtCursor } from "../state/selection";
 import { clear, situation } from "../state/situation";
 import { Chosen } from "./Chosen";
 import { Obligations } from "./Obligations";
+import { Old } from "./Old";
 import { SaveCase } from "./SaveCase";
 import { Scope } from "./Scope";
 import { Search } from "./Search";
@@ -48,8 +48,7 @@ export function Situation() {
       <div class="columns">
         <Switches filter={filter} rule={local ? ruleAtCursor.value : null} />
         <section class="answer" aria-label={t("answer")}>
-          {server.value !== "here" && <p class="old">{t("answerWaits")}</p>}
-          {server.value === "here" && waiting.value && goodText.value !== null && <p class="old">{t("answerOld")}</p>}
+          <Old />
           <Obligations />
         </section>
       </div>

@@ -9,6 +9,7 @@ import { answer, end, fixedEnd, move, placed, remove, type Placed } from "../sta
 import { spoken } from "../words";
 import { AddEvent } from "./AddEvent";
 import { duration } from "./duration";
+import { Old } from "./Old";
 import { Scope } from "./Scope";
 import { Sentence } from "./Sentence";
 
@@ -40,6 +41,7 @@ export function Timeline() {
             ))}
           </div>
           <h3>{t("timelineWindows")}</h3>
+          <Old />
           {windows.length === 0 && <p class="empty">{t("timelineNoWindows")}</p>}
           <ul class="windows">
             {windows.map((window, number) => (
