@@ -44,6 +44,23 @@ def test_numbers_and_scales_count(serve, show) -> None:
     expect(page.locator(".answer .must-not li")).to_have_text(["open curtains"])
 
 
+def test_numbers_can_be_typed(serve, show) -> None:
+    page = show(serve(RULES))
+    field = page.get_by_role("spinbutton", name="user age")
+    for text, number in (("36.6", "36.6"), ("0.05", "0.05"), ("-2.5", "-2.5"), ("1e3", "1000"), ("12.", "12")):
+        field.fill("")
+        field.press_sequentially(text)
+        expect(page.locator(".chosen li")).to_have_text(f"user age: {number}×")
+        field.blur()
+        expect(field).to_have_value(number)
+    field.press("Control+a")
+    field.press("-")
+    expect(page.locator(".chosen")).to_have_count(0)
+    field.blur()
+    page.get_by_role("slider", name="user age").fill("12")
+    expect(field).to_have_value("12")
+
+
 def test_the_answer_stays_while_a_rule_is_half_written(serve, show) -> None:
     page = show(serve(RULES))
     page.get_by_role("spinbutton", name="user age").fill("12")

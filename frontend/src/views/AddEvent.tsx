@@ -14,6 +14,9 @@ const KINDS: Record<PlacedKind, Message> = {
   wait: "timelineWait",
 };
 
+/** The greatest time in seconds. */
+const MOST = 1e9;
+
 const UNITS: [number, Message][] = [
   [1, "seconds"],
   [60, "minutes"],
@@ -41,7 +44,7 @@ export function AddEvent() {
       onSubmit={(event) => {
         event.preventDefault();
         const seconds = Number(time) * unit;
-        if (chosen === undefined || !time.trim() || !(seconds >= 0 && seconds <= 1e9)) return;
+        if (chosen === undefined || !time.trim() || !(seconds >= 0 && seconds <= MOST)) return;
         place(kind, chosen, Math.round(seconds));
         setTime(String(Number(time) + (unit === 1 ? 5 : 1)));
       }}
@@ -70,7 +73,7 @@ export function AddEvent() {
       )}
       <label>
         {t("timelineTime")}
-        <input type="number" min="0" step="any" value={time} onInput={(event) => setTime(event.currentTarget.value)} />
+        <input type="number" min="0" max={MOST / unit} step="any" required value={time} onInput={(event) => setTime(event.currentTarget.value)} />
       </label>
       <label>
         {t("timelineUnit")}

@@ -1,5 +1,6 @@
 /** Switches for triggers and conditions, sliders for numbers, and choices for scales. */
 
+import { useState } from "preact/hooks";
 import type { Condition, Rule } from "../api/types";
 import { t } from "../messages";
 import { names } from "../state/analysis";
@@ -10,7 +11,7 @@ import { Paged } from "./Paged";
 export function Switches({ filter, rule }: { filter: string; rule: Rule | null }) {
   const wanted = filter.trim().toLowerCase();
   const fits = (name: string): boolean =>
-    (name.toLowerCase().includes(wanted) || spoken(name).includes(wanted)) && (rule === null || mentions(rule, name));
+    (name.toLowerCase().includes(wanted) || spoken(name).toLowerCase().includes(wanted)) && (rule === null || mentions(rule, name));
   const occurring = names.value.triggers.filter(fits);
   const conditions = names.value.conditions.filter((one) => fits(one.name));
   const booleans = conditions.filter((one) => one.kind === "boolean");
@@ -71,6 +72,8 @@ function Switch({ name, on, change }: { name: string; on: boolean; change: (on: 
 }
 
 function Measure({ measure }: { measure: Condition }) {
+  // What the user is typing: "36." is not a number yet, and must stay as it is.
+  const [typed, setTyped] = useState<string | null>(null);
   const value = valueOf(measure);
   if (measure.kind === "scale")
     return (
@@ -111,8 +114,15 @@ function Measure({ measure }: { measure: Condition }) {
         aria-label={label}
         placeholder={t("notGiven")}
         step={step}
-        value={value === null ? "" : nearest(value)}
-        onInput={(event) => set(event.currentTarget.value)}
+        value={typed ?? (value === null ? "" : nearest(value))}
+        onInput={(event) => {
+          setTyped(event.currentTarget.value);
+          set(event.currentTarget.value);
+        }}
+        onBlur={(event) => {
+          if (event.currentTarget.validity.badInput) event.currentTarget.value = "";
+          setTyped(null);
+        }}
       />
     </div>
   );
