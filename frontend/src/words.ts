@@ -3,6 +3,20 @@
  */
 
 export function spoken(name: string): string {
+  let words = known.get(name);
+  if (words === undefined) {
+    if (known.size >= MOST_KNOWN) known.clear();
+    words = read(name);
+    known.set(name, words);
+  }
+  return words;
+}
+
+/** The words of the names that were read; a page draws thousands of them again and again. */
+const known = new Map<string, string>();
+const MOST_KNOWN = 50_000;
+
+function read(name: string): string {
   const characters = [...name];
   if (name.includes(" ") || characters.length === 1) return name;
   const words = [""];
@@ -11,8 +25,8 @@ export function spoken(name: string): string {
     if (beginsWord(words.at(-1) ?? "", here, characters[place + 1] ?? "")) words.push("");
     words.push((words.pop() ?? "") + here);
   });
-  const read = words.filter(Boolean).map((word) => ([...word].length > 1 && isCapital(word) ? word : word.toLowerCase()));
-  return read.join(" ") || name;
+  const cased = words.filter(Boolean).map((word) => ([...word].length > 1 && isCapital(word) ? word : word.toLowerCase()));
+  return cased.join(" ") || name;
 }
 
 /** Whether a new word begins at the character `here`. An acronym is in capital letters, and may have numbers. */
