@@ -155,7 +155,7 @@ export const de: Messages = {
   conflictTake: "Die andere Fassung übernehmen",
   fileReloaded: "Die Datei auf dem Datenträger wurde geändert. Die Seite zeigt den neuen Text.",
   gone: "Der Server antwortet nicht. Sie können weiterschreiben: Dieser Browser bewahrt den Text auf, und die Seite macht von selbst weiter, sobald der Server wieder läuft. Um den Server neu zu starten, führen Sie aus: sleec-verify serve {path}",
-  lost: "Diese Seite hat ihren Server verloren. Kopieren Sie, was Sie hier inzwischen geschrieben haben, denn es steht nur auf dieser Seite. Öffnen Sie dann die Adresse, die der Befehl zuletzt ausgegeben hat.",
+  lost: "Diese Seite hat ihren Server verloren. Kopieren Sie, was Sie seit dem Ende des Servers geschrieben haben, denn es steht nur auf dieser Seite. Öffnen Sie dann die Adresse, die der Befehl zuletzt ausgegeben hat.",
   back: "Der Server läuft wieder.",
   find: "Suchen",
   replaceWith: "Ersetzen",

@@ -153,7 +153,7 @@ export const en = {
   conflictTake: "Take the other version",
   fileReloaded: "The file changed on disk. The page shows the new text.",
   gone: "The server does not answer. You can keep writing: this browser keeps your text, and the page continues by itself when the server is back. To start the server again, run: sleec-verify serve {path}",
-  lost: "This page has lost its server. Copy what you wrote here since then, because it exists only on this page. Then open the address that the command printed last.",
+  lost: "This page has lost its server. Copy what you wrote since the server stopped, because it exists only on this page. Then open the address that the command printed last.",
   back: "The server is back.",
   find: "Find",
   replaceWith: "Replace",

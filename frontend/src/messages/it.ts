@@ -155,7 +155,7 @@ export const it: Messages = {
   conflictTake: "Prendi l’altra versione",
   fileReloaded: "Il file è cambiato su disco. La pagina mostra il nuovo testo.",
   gone: "Il server non risponde. Puoi continuare a scrivere: questo browser conserva il testo, e la pagina riprende da sola quando il server è di nuovo attivo. Per riavviare il server, esegui: sleec-verify serve {path}",
-  lost: "Questa pagina ha perso il suo server. Copia ciò che hai scritto qui nel frattempo, perché esiste solo su questa pagina. Poi apri l’ultimo indirizzo mostrato dal comando.",
+  lost: "Questa pagina ha perso il suo server. Copia ciò che hai scritto da quando il server si è fermato, perché esiste solo su questa pagina. Poi apri l’ultimo indirizzo mostrato dal comando.",
   back: "Il server è di nuovo attivo.",
   find: "Cerca",
   replaceWith: "Sostituisci",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from sleec_runtime.model import Atom, Context, Formula, Rule, Ruleset
+from sleec_runtime.model import Atom, Comparison, Context, Formula, Rule, Ruleset
 from sleec_verify.entailment.answer import ActiveClause, ConditionValue
 from sleec_verify.report.explanation import due_text, truth_text
 from sleec_verify.wording.phrases import occurring, quoted
@@ -30,5 +30,10 @@ def guarded_steps(ruleset: Ruleset, context: Context, rule: Rule, guard: Formula
 def _truth(ruleset: Ruleset, context: Context, decision: ConditionValue) -> str:
     """```user age is below 16` is true, as `UserAge` is 2 (line 3)``"""
     formula = decision.formula
-    words = quoted(formula.name) if isinstance(formula, Atom) else joined("", ["`", condition_words(formula), "`"])
+    if isinstance(formula, Atom):
+        words = quoted(formula.name)
+    else:
+        # What combines conditions has quotation marks inside.
+        before, after = "``" if isinstance(formula, Comparison) else "()"
+        words = joined("", [before, condition_words(formula), after])
     return truth_text(ruleset, context, words, decision)

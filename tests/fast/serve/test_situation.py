@@ -42,6 +42,15 @@ def test_each_rule_says_which_clause_decides_and_why(tmp_path: Path) -> None:
     assert "CallParents" in answer["sentence"]
 
 
+def test_conditions_inside_a_condition_have_quotation_marks_only_once(tmp_path: Path) -> None:
+    text = "RULE a\nWHEN Bell THEN Open UNLESS Night AND NOT (Asleep OR Ill) IN WHICH CASE Wait"
+    (rule,) = asked(tmp_path, text, conditions={"Night": True, "Ill": True})["rules"]
+    assert rule["steps"][1] == (
+        "(“night” is true and it is not true that (“asleep” is true or “ill” is true)) is false, "
+        "as `Night` is true, `Asleep` is false and `Ill` is true (line 2)"
+    )
+
+
 def test_a_conflict_is_shown_in_its_situation(tmp_path: Path) -> None:
     answer = asked(tmp_path, conditions={"Asleep": True, "Fire": True, "Age": 20})
     assert not answer["consistent"]
