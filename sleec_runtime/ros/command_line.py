@@ -121,6 +121,9 @@ def _parser() -> argparse.ArgumentParser:
     manager = node("context-manager", _context_manager, "Keep the context of the robot.")
     manager.add_argument("rules", metavar="RULES", help="the file with the rules")
     manager.add_argument("--domain", help="the domain at the beginning (default: the rules of all domains)")
+    manager.add_argument(
+        "--strict", action="store_true", help="reject triggers that depend on values that nobody has reported"
+    )
     manager.add_argument("--checkpoint", metavar="FILE", help="keep the context and the deadlines here for a restart")
     task = node("task", _task, "Execute the rules of a task.")
     task.add_argument("code", metavar="MODULE:CLASS", help="a subclass of TaskManagerNode; it gets the transport")
@@ -155,7 +158,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _context_manager(options: argparse.Namespace, connect: Connect) -> Closable:
-    sleec = Sleec(language.load(options.rules), options.domain)
+    sleec = Sleec(language.load(options.rules), options.domain, strict=options.strict)
     return ContextManagerNode(sleec, connect(), name=options.name, checkpoint=options.checkpoint)
 
 

@@ -122,7 +122,7 @@ class LayerListener:
         except SleecError as error:
             self._fault = OutOfStep(f"update {number} cannot be applied: {error}")
         else:
-            self._fault = None if agrees else OutOfStep(f"update {number} names other layers than this node derives")
+            self._fault = None if agrees else _other_layers(number)
         self._have = number
 
     def _changed_by_others(self) -> None:
@@ -160,7 +160,10 @@ class LayerListener:
             names = " and ".join([followed, *others])
             return SecondManager(f"several Context Managers are active: {names}", "stop all but one")
         if self.watch.silent(now):
-            return OutOfStep(f"Context Manager {followed} is silent for more than {self.watch.timeout:g} seconds")
+            return OutOfStep(
+                f"Context Manager {followed} is silent for more than {self.watch.timeout:g} seconds, "
+                "or code of this node took as long"
+            )
         if self._have < max(self._seen, announced):
             return OutOfStep(f"update {self._have + 1} of Context Manager {followed} has not arrived")
         return None
@@ -168,3 +171,10 @@ class LayerListener:
     def _ask(self) -> None:
         ours = self._identifier.identity(snapshot_of(self._sleec))
         self._send(LayersRequest(node=self._node.name, have=self._have, **ours._asdict()))
+
+
+def _other_layers(number: int) -> OutOfStep:
+    return OutOfStep(
+        f"update {number} names other layers than this node derives",
+        "load the rules of all nodes with the same `strict`, and run one version of sleec-runtime",
+    )

@@ -131,6 +131,18 @@ def test_errors_are_one_line(
     assert problem in line
 
 
+def test_a_context_manager_may_be_strict(transport: InProcessTransport, caplog: pytest.LogCaptureFixture) -> None:
+    Path("rules.sleec").write_text(RULES.replace("Drive", "Drive WITHIN 5 seconds"))
+
+    def trigger() -> None:
+        message = MissionEvent(trigger="Go")
+        transport._network.transport().publisher(message.topic).publish(message.to_fields())
+        transport._network.deliver()
+
+    assert run(["context-manager", "rules.sleec", "--strict"], trigger) == 0
+    assert "the decision for Go depends on unreported values: Dark" in caplog.text
+
+
 def test_unknown_options_are_a_usage_error(transport: InProcessTransport) -> None:
     with pytest.raises(SystemExit) as caught:
         main(["monitor", "rules.sleec", "--tol", "1"])

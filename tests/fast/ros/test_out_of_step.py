@@ -221,6 +221,32 @@ def test_an_update_with_other_layers_than_the_task_derives_puts_it_out_of_step()
     assert robot.trigger("Ring") == []
 
 
+@pytest.mark.parametrize("strict", [False, True])
+def test_nodes_of_which_one_is_strict_say_so(strict: bool) -> None:
+    robot = Robot(RULES)
+    robot.crash_manager()
+    manager, task = (Sleec(RULES, strict=one, clock=robot.clock) for one in (strict, not strict))
+    task.implement({name: lambda fields: None for name in RULES.obligations})
+    ContextManagerNode(manager, robot.network.transport())
+    TaskManagerNode("task", task, robot.network.transport(), on_problem=robot.problems.append)
+    robot.deliver()
+    assert "load the rules of all nodes with the same `strict`" in str(robot.problems[0])
+
+
+def test_code_that_takes_long_is_a_possible_reason_for_silence() -> None:
+    """The node cannot tell: its code runs in the thread that receives heartbeats."""
+    robot = Robot(RULES)
+    sleec = robot.sleec()
+    sleec.implement({name: lambda fields: robot.clock.advance(4) for name in RULES.obligations})
+    TaskManagerNode("task", sleec, robot.network.transport(), on_problem=robot.problems.append)
+    robot.deliver()
+    robot.trigger("Ring")
+    assert "silent for more than 3 seconds, or code of this node took as long" in str(robot.problems[0])
+    robot.advance(1)
+    robot.trigger("Ring")
+    assert [report.obligations for report in robot.executed] == [("OpenDoor",), ("OpenDoor",)]
+
+
 class Prompt(InProcessPublisher):
     """Other nodes answer before the sender continues, as their threads may."""
 
