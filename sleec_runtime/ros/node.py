@@ -6,8 +6,10 @@ import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TypeVar
+from weakref import ReferenceType, WeakKeyDictionary, ref
 
 from sleec_runtime.errors import SleecError, WrongType
+from sleec_runtime.facade.host import Host
 from sleec_runtime.model import LONGEST, Rational, exact
 from sleec_runtime.ros.message import Message
 from sleec_runtime.ros.transport import Fields, Receive, Topic, Transport, is_printable
@@ -22,6 +24,8 @@ OnProblem = Callable[[SleecError], object]
 
 _LOG = logging.getLogger("sleec_runtime.ros")
 
+_OWNERS: WeakKeyDictionary[Host, ReferenceType[Node]] = WeakKeyDictionary()
+"""The node that had each `Sleec` last."""
 
 SHORTEST = 0.001
 """The shortest time that a node measures, in seconds. Calls at shorter intervals would leave no time for messages."""
@@ -64,6 +68,17 @@ class Node:
         except BaseException:
             self.close()
             raise
+
+    def own(self, sleec: Host) -> None:
+        """Takes `sleec` for this node. Raises SleecError if another node has it: each would change the context and the
+        code of the other."""
+        last = _OWNERS.get(sleec)
+        owner = None if last is None else last()
+        if owner is not None and not owner.closed:
+            raise SleecError(
+                f"node `{self.name}` has the same Sleec as node `{owner.name}`", "load the rules again for each node"
+            )
+        _OWNERS[sleec] = ref(self)
 
     def exact_time(self) -> Rational:
         """The time of the clock, as an exact number. Raises WrongType for a time out of bounds."""

@@ -36,7 +36,7 @@ class ContextManagerNode:
     conditions, and the pending obligations.
 
     Raises SnapshotRefused for rules that were not read from a text, and for a checkpoint that is malformed or of other
-    rules; WrongType for a wrong `heartbeat`.
+    rules; WrongType for a wrong `heartbeat`; SleecError if another node has `sleec`.
     """
 
     def __init__(
@@ -55,13 +55,14 @@ class ContextManagerNode:
                 "load the rules with chains=False, and publish the triggers of such rules",
             )
         heartbeat = seconds_of(heartbeat, "heartbeat")
-        sleec.code.is_partial = True
         self.manager = uuid.uuid4().hex
         self._sleec = sleec
         self._node = node = Node(name, transport, sleec.clock, on_problem)
         self._file = None if checkpoint is None else CheckpointFile(checkpoint)
         self._others = RecentIds()
         with node.starting():
+            node.own(sleec)
+            sleec.code.is_partial = True
             saved = None if self._file is None else self._file.read()
             if saved is not None:
                 with _fitting_checkpoint():

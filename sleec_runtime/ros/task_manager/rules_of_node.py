@@ -19,7 +19,7 @@ def claim_rules(sleec: Sleec, labels: Iterable[str] | None) -> frozenset[str]:
 
     Those that the Context Manager decides are left out (see `managed_triggers`). The other rules of the same triggers
     get code that does nothing, because other nodes execute them. They are still decided, so that conflicts with them
-    are found. Raises WrongType, UnknownLabel, and NotBound if code is missing.
+    are found. Raises WrongType, UnknownLabel, and NotBound if code is missing or would never run.
     """
     rules, code = snapshot_of(sleec).index.whole.by_label, sleec.code
     if isinstance(labels, str):
@@ -37,6 +37,14 @@ def claim_rules(sleec: Sleec, labels: Iterable[str] | None) -> frozenset[str]:
         for label in own - rules.keys():
             raise UnknownLabel(label, rules)
     managed = managed_triggers(snapshot_of(sleec).index.whole)
+    idle = sorted(label for label in own if rules[label].trigger in managed and code.has_method(label))
+    if idle:
+        raise NotBound(
+            f"rule `{idle[0]}` has a method, which would never run: the Context Manager decides rules with times, and "
+            "those that share obligations with them",
+            idle,
+            "give its obligations callables by `implement`, and remove the method",
+        )
     own = frozenset(label for label in own if rules[label].trigger not in managed)
     problems = missing([rules[label] for label in own], code)
     if problems:

@@ -49,8 +49,8 @@ class TaskManagerNode:
     `longest_hold` seconds, ``default`` runs the defaults of its rules, and ``refuse`` executes nothing. A Context
     Manager that is silent for `timeout` seconds counts as dead.
 
-    Raises WrongType, NotBound and UnknownLabel, SnapshotRefused for rules that were not read from a text, and as
-    `Sleec.bind`.
+    Raises WrongType, NotBound and UnknownLabel, SnapshotRefused for rules that were not read from a text, SleecError if
+    another node has `sleec`, and as `Sleec.bind`.
     """
 
     def __init__(
@@ -68,17 +68,18 @@ class TaskManagerNode:
         self._policy = checked_policy(policy)
         timeout = seconds_of(timeout, "timeout")
         longest_hold = seconds_of(longest_hold, "longest_hold")
-        if type(self) is not TaskManagerNode:
-            sleec.bind(self)
-        self._rules = claim_rules(sleec, rules)
-        by_label = snapshot_of(sleec).index.whole.by_label
-        self._triggers = frozenset(by_label[label].trigger for label in self._rules)
         self._sleec = sleec
         self._node = Node(name, transport, sleec.clock, on_problem)
-        sleec.listen(self._anticipate)
         self._held = HeldTriggers(self._node.clock, longest_hold)
         self._mission_ids = RecentIds()
         with self._node.starting():
+            self._node.own(sleec)
+            if type(self) is not TaskManagerNode:
+                sleec.bind(self)
+            self._rules = claim_rules(sleec, rules)
+            by_label = snapshot_of(sleec).index.whole.by_label
+            self._triggers = frozenset(by_label[label].trigger for label in self._rules)
+            sleec.listen(self._anticipate)
             self._send = self._node.sender(Executed)
             self.layer_listener = LayerListener(self._node, sleec, timeout, self._release)
             self._occurrences = {trigger: self._occurrence(trigger) for trigger in self._triggers}
@@ -197,8 +198,9 @@ class TaskManagerNode:
 
     def _report_error(self, what: str, error: BaseException) -> str:
         """Reports an error of the code of a task, and returns it as text."""
-        text = f"{type(error).__name__}: {error}"
-        if not isinstance(error, SleecError):
+        if isinstance(error, SleecError):
+            text = f"{type(error).__name__}: {error}"
+        else:
             text = represent(error)
             _LOG.error("%s: %s failed", self._node.name, what, exc_info=error)
         problem = SleecError(f"{what} failed: {text}")

@@ -24,7 +24,16 @@ RULE fall WHEN Fall THEN Help WITHIN 5 seconds OTHERWISE Shout
 RULE call WHEN Bell THEN Answer WITHIN Age days
 """)
 pytestmark = pytest.mark.filterwarnings("ignore::sleec_runtime.errors.NotEnforced")
-ERRORS = (ValueError, SystemExit, GeneratorExit, BaseException)
+
+
+class Unprintable(Exception):
+    """An error that cannot be shown as text."""
+
+    def __str__(self) -> str:
+        raise ValueError("no text")
+
+
+ERRORS = (ValueError, SystemExit, GeneratorExit, BaseException, Unprintable)
 
 
 def raising(kind: type[BaseException]) -> Any:

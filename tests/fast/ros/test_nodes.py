@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import contextpy3 as cop
 import pytest
 
@@ -178,6 +180,60 @@ def test_a_mission_event_that_arrives_twice_occurs_once() -> None:
     assert robot.trigger("MonitorMealTime", "m/1") == ["InformUser"]
     assert robot.trigger("MonitorMealTime", "m/1") == []
     assert robot.trigger("MonitorMealTime", "m/2") == ["InformUser"]
+
+
+WITH_TIMES = language.parse("""
+RULE dust WHEN DustSeen THEN Vacuum WITHIN 5 minutes
+RULE rest WHEN UserSleeps THEN NOT Vacuum AND DimLight
+RULE tea WHEN Thirst THEN MakeTea
+""")
+
+
+@pytest.mark.parametrize("label", ["dust", "rest"])
+def test_a_method_that_would_never_run_is_an_error(label: str) -> None:
+    sleec = Sleec(WITH_TIMES)
+
+    class Methods:
+        @sleec.rule(label)
+        @cop.base
+        def decided_elsewhere(self, message: Fields) -> None: ...
+
+        @sleec.rule("tea")
+        @cop.base
+        def tea(self, message: Fields) -> None: ...
+
+    sleec.bind(Methods())
+    transport = Network().transport()
+    with pytest.raises(NotBound, match=f"rule `{label}` has a method, which would never run"):
+        TaskManagerNode("task", sleec, transport)
+    TaskManagerNode("task", sleec, transport, rules=["tea"]).close()
+
+
+@pytest.mark.parametrize("is_manager_first", [True, False])
+def test_each_node_needs_its_own_instance_of_the_rules(is_manager_first: bool) -> None:
+    transport, sleec = Network().transport(), Sleec(CARE)
+    sleec.implement({name: lambda fields: None for name in CARE.obligations})
+    starts: list[Callable[[], ContextManagerNode | TaskManagerNode]] = [
+        lambda: ContextManagerNode(sleec, transport),
+        lambda: TaskManagerNode("task", sleec, transport),
+    ]
+    first, second = starts if is_manager_first else reversed(starts)
+    node = first()
+    with pytest.raises(SleecError, match="the same Sleec as node `") as refused:
+        second()
+    assert refused.value.hint == "load the rules again for each node"
+    node.close()
+    second().close()
+
+
+def test_a_node_that_does_not_start_leaves_the_instance_to_others() -> None:
+    transport, sleec = Network().transport(), Sleec(CARE)
+    with pytest.raises(NotBound):
+        TaskManagerNode("task", sleec, transport)
+    with pytest.raises(SnapshotRefused):
+        ContextManagerNode(sleec, transport, checkpoint=ROOT)
+    sleec.implement({name: lambda fields: None for name in CARE.obligations})
+    TaskManagerNode("task", sleec, transport).close()
 
 
 def test_mistakes_in_the_program_are_errors() -> None:
