@@ -47,7 +47,7 @@ class Process:
     def __init__(self, name: str, *arguments: str) -> None:
         self._name = " ".join((name, *arguments))
         self._process = subprocess.Popen(
-            [sys.executable, "-m", f"examples.robot.{name}", *arguments],
+            [sys.executable, "-m", f"{__package__}.{name}", *arguments],
             env=environment(),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -79,7 +79,7 @@ class Process:
 def main() -> int:
     # As Ctrl-C: also a process manager must not leave processes behind.
     signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
-    from examples.robot.rules import RULES
+    from .rules import RULES
 
     log = sys.argv[1] if len(sys.argv) > 1 else str(Path(tempfile.mkdtemp(prefix="sleec-robot-")) / "mission.jsonl")
     with ExitStack() as ends:
@@ -90,7 +90,7 @@ def main() -> int:
             process.await_start()
         print(f"{len(processes)} processes run over DDS in domain {environment()['ROS_DOMAIN_ID']}.", flush=True)
         mission = subprocess.run(
-            [sys.executable, "-m", "examples.robot.mission"], env=environment(), check=False, start_new_session=True
+            [sys.executable, "-m", f"{__package__}.mission"], env=environment(), check=False, start_new_session=True
         )
     print(f"The record is {log}.\n", flush=True)
     audited = subprocess.run(

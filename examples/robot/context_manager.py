@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from examples.robot.process import run
-from examples.robot.rules import sleec
 from sleec_runtime.ros import ContextManagerNode
+
+from .process import run
+from .rules import sleec
 
 if __name__ == "__main__":
     run(lambda transport: ContextManagerNode(sleec, transport))

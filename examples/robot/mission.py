@@ -15,11 +15,12 @@ from dataclasses import dataclass, field
 from queue import Empty, SimpleQueue
 from typing import TypeVar
 
-from examples.robot.rules import sleec
-from examples.robot.tasks import ACTIONS
 from sleec_runtime.ros import MissionManagerNode
 from sleec_runtime.ros.dds.transport import DdsTransport
 from sleec_runtime.ros.messages import ConditionsUpdate, Executed, LayersUpdate, MissionEvent
+
+from .rules import sleec
+from .tasks import ACTIONS, TASKS
 
 T = TypeVar("T")
 
@@ -29,9 +30,8 @@ PATIENCE = 20.0
 PAUSE = 0.1
 """Seconds between a change of context and a trigger."""
 
-
-RECEIVERS = 4
-"""The subscriptions of triggers that the mission waits for: three tasks and the recorder."""
+RECEIVERS = len(TASKS) + 2
+"""The subscriptions of triggers that the mission waits for: the tasks, the Context Manager and the recorder."""
 
 
 @dataclass(frozen=True)
@@ -167,7 +167,10 @@ def main() -> None:
     try:
         mission = Mission(transport)
         triggers = transport.publisher(MissionEvent.topic)
-        while triggers.subscription_count() < RECEIVERS:
+        end = time.monotonic() + PATIENCE
+        while (count := triggers.subscription_count()) < RECEIVERS:
+            if time.monotonic() > end:
+                sys.exit(f"{count} processes receive triggers, and {RECEIVERS} are expected")
             time.sleep(0.01)
         time.sleep(PAUSE)
         deviations = mission.run(MISSION)

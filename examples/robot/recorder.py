@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import sys
 
-from examples.robot.process import run
-from examples.robot.tasks import ACTIONS
 from sleec_runtime.ros import RecorderNode
 from sleec_runtime.ros.messages import ConditionsUpdate, DomainChange, LayersUpdate, MissionEvent
+
+from .process import run
+from .tasks import ACTIONS
 
 TOPICS = (
     *(message.topic for message in (DomainChange, ConditionsUpdate, LayersUpdate, MissionEvent)),

@@ -15,10 +15,11 @@ import sys
 
 import contextpy3 as cop
 
-from examples.robot.process import run
-from examples.robot.rules import sleec
 from sleec_runtime.ros import TaskManagerNode, Topic
 from sleec_runtime.ros.transport import Fields, Transport
+
+from .process import run
+from .rules import sleec
 
 ACTIONS = Topic("/actions", depth=100)
 

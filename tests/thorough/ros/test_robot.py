@@ -17,12 +17,12 @@ from tests.support.paths import ROOT
 require_dds()
 
 
-def run(folder: Path, log: Path) -> subprocess.CompletedProcess[str]:
-    """Runs the robot of the project in `folder`."""
+def run(folder: Path, log: Path, package: str = "examples.robot") -> subprocess.CompletedProcess[str]:
+    """Runs the robot `package` of the project in `folder`."""
     environment = {**os.environ, "ROS_DOMAIN_ID": str(unused_domain()), "PYTHONPATH": str(folder)}
     environment.pop("CYCLONEDDS_URI", None)
     return subprocess.run(
-        [sys.executable, "-m", "examples.robot", str(log)],
+        [sys.executable, "-m", package, str(log)],
         cwd=folder,
         env=environment,
         capture_output=True,
@@ -33,8 +33,8 @@ def run(folder: Path, log: Path) -> subprocess.CompletedProcess[str]:
 
 @pytest.fixture
 def copy(tmp_path: Path) -> Path:
-    """A copy of the robot and its rules."""
-    shutil.copytree(ROOT / "examples/robot", tmp_path / "examples/robot")
+    """A copy of the robot and its rules. A copy has a name of its own."""
+    shutil.copytree(ROOT / "examples/robot", tmp_path / "robots/mine")
     (tmp_path / "rulesets").mkdir()
     shutil.copy(ROOT / "rulesets/care-robot.sleec", tmp_path / "rulesets")
     return tmp_path
@@ -60,13 +60,13 @@ def test_the_mission_ends_without_deviation(tmp_path: Path) -> None:
 
 
 def test_a_task_that_does_something_else_is_noticed(copy: Path) -> None:
-    change(copy / "examples/robot/tasks.py", "        self.refuse_request()\n", "        self.open_curtains()\n")
+    change(copy / "robots/mine/tasks.py", "        self.refuse_request()\n", "        self.open_curtains()\n")
     change(
-        copy / "examples/robot/mission.py",
+        copy / "robots/mine/mission.py",
         "mission.run(MISSION)",
         "mission.run((MISSION[0], MISSION[11], MISSION[13]))",
     )
-    done = run(copy, copy / "mission.jsonl")
+    done = run(copy, copy / "mission.jsonl", "robots.mine")
     assert done.returncode == 1
     assert "DEVIATION: the robot has to execute RefuseRequest and ExplainWhy" in done.stdout
     assert "The mission has ended with 1 deviation." in done.stdout
@@ -76,10 +76,18 @@ def test_a_task_that_does_something_else_is_noticed(copy: Path) -> None:
 
 
 def test_a_process_that_fails_is_named(copy: Path) -> None:
-    (copy / "examples/robot/context_manager.py").write_text("raise SystemExit('no')\n", encoding="utf-8")
-    done = run(copy, copy / "mission.jsonl")
+    (copy / "robots/mine/context_manager.py").write_text("raise SystemExit('no')\n", encoding="utf-8")
+    done = run(copy, copy / "mission.jsonl", "robots.mine")
     assert done.returncode == 1
     assert "the process `context_manager` failed" in done.stderr
+
+
+def test_a_task_that_was_not_started_is_noticed(copy: Path) -> None:
+    change(copy / "robots/mine/__main__.py", '    ("tasks", "Triage"),\n', "")
+    change(copy / "robots/mine/mission.py", "PATIENCE = 20.0", "PATIENCE = 2.0")
+    done = run(copy, copy / "mission.jsonl", "robots.mine")
+    assert done.returncode == 1
+    assert "4 processes receive triggers, and 5 are expected" in done.stderr
 
 
 @pytest.mark.parametrize("line", ["", "It greets a patient", "has ended"])
