@@ -11,13 +11,15 @@ from sleec_runtime.timed.clock import Time
 
 PLAIN = "None, truth values, numbers, texts, or lists and dicts of these"
 
-_DEEPEST = 50
+DEEPEST = 50
+"""The most lists and dicts within each other."""
+
 _FRACTION = re.compile(rf"-?[0-9]{{1,{DIGITS}}}/[0-9]{{1,{DIGITS}}}", re.ASCII)
 
 Number = Union[int, float, str]
 
 
-def is_plain(value: object, depth: int = _DEEPEST) -> bool:
+def is_plain(value: object, depth: int = DEEPEST) -> bool:
     """Whether `value` is unchanged after it is written as JSON and read again. Tuples and subclasses are not."""
     kind = type(value)
     if kind is int or kind is float:

@@ -18,7 +18,7 @@ from sleec_runtime.evaluation.hedge_chain import Decision
 from sleec_runtime.support.messages import represent
 from sleec_runtime.timed.checkpoint import FORMAT, identity, may_run_code
 from sleec_runtime.timed.clock import Time
-from sleec_runtime.timed.plain_data import copied, is_plain, number_from_plain
+from sleec_runtime.timed.plain_data import DEEPEST, copied, is_plain, number_from_plain
 from sleec_runtime.timed.response_tasks import tasks_of
 from sleec_runtime.timed.snapshot_data import chosen, items, number_at, record, refuse_malformed
 from sleec_runtime.timed.task import Origin, Path, Task
@@ -185,7 +185,11 @@ def _arguments(data: object, where: str) -> tuple[tuple[Any, ...], Mapping[str, 
         return (), {}
     arguments = record(data, where, "args", "kwargs")
     args, kwargs = arguments["args"], arguments["kwargs"]
-    if type(args) is not list or type(kwargs) is not dict or not is_plain(args) or not is_plain(kwargs):
+    if (
+        type(args) is not list
+        or type(kwargs) is not dict
+        or not all(is_plain(one, DEEPEST + 1) for one in (args, kwargs))
+    ):
         refuse_malformed(where, data, "a list and a dict of plain data")
     return tuple(copied(args)), copied(kwargs)
 

@@ -16,13 +16,14 @@ from sleec_runtime.facade.sleec import Sleec
 from sleec_runtime.model import literals
 from sleec_runtime.ros.context_manager.layer_updater import LayerUpdater
 from sleec_runtime.ros.identity import snapshot_of
-from sleec_runtime.ros.json_object import write_object
+from sleec_runtime.ros.json_object import read_object, write_object
 from sleec_runtime.ros.managed_triggers import managed_triggers
 from sleec_runtime.ros.messages import Completed, Executed, MissionEvent, Start
 from sleec_runtime.ros.node import Node
 from sleec_runtime.ros.recent_ids import RecentIds
 from sleec_runtime.ros.transport_errors import MalformedMessage
 from sleec_runtime.support.messages import represent
+from sleec_runtime.timed.plain_data import DEEPEST, is_plain
 
 MOST_ARGUMENTS = Start.max_size - 10_000
 """The most characters of the arguments of a trigger. The other fields of a `Start` need less than the rest."""
@@ -60,14 +61,11 @@ class DeadlineManager:
         self._node.listen(Completed, self._complete)
 
     def occur(self, trigger: str, arguments: Mapping[str, Any]) -> None:
-        """A trigger of a rule with time occurs. Raises as `Sleec.trigger`, and MalformedMessage for arguments that no
-        message can carry to the tasks. Reports this on /executed."""
+        """A trigger of a rule with times occurs. Raises as `Sleec.trigger`, and MalformedMessage for arguments that no
+        message can carry to the tasks, or no checkpoint can hold. Reports this on /executed."""
         arrived = time.time()
         try:
-            if not isinstance(arguments, Mapping):
-                raise MalformedMessage(f"the message is {represent(arguments)}, not a mapping of fields")
-            write_object({"arguments": dict(arguments)}, MOST_ARGUMENTS)
-            self._sleec.trigger(trigger, dict(arguments))
+            self._sleec.trigger(trigger, _received(arguments))
         except SleecError as error:
             failed = f"{type(error).__name__}: {error}"
             name = self._node.name
@@ -135,3 +133,16 @@ class DeadlineManager:
                 return False
             del self._open[start.obligation]
             return True
+
+
+def _received(arguments: Mapping[str, Any]) -> dict[str, Any]:
+    """Arguments as the tasks receive them, which is also what a checkpoint holds. Raises MalformedMessage."""
+    if not isinstance(arguments, Mapping):
+        raise MalformedMessage(f"the message is {represent(arguments)}, not a mapping of fields")
+    text = write_object({"arguments": dict(arguments)}, MOST_ARGUMENTS)
+    found: dict[str, Any] = read_object(text, MOST_ARGUMENTS)["arguments"]
+    if not is_plain(found):
+        raise MalformedMessage(
+            f"the arguments have more than {DEEPEST} levels", "give a number or a name of the object"
+        )
+    return found

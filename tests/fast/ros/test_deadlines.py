@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import time
+from collections import OrderedDict
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
@@ -221,6 +222,22 @@ def test_deadlines_survive_a_restart_of_the_context_manager(tmp_path: Path) -> N
     ward.robot.advance(60)
     assert ward.robot.log == ["CallNurse 3", "OfferWalk", "CallAmbulance"]
     assert ward.robot.executed[-1].manager == second.manager
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [OrderedDict(header=OrderedDict(frame="map"), at=(1, 2)), {"x": json.loads("[" * 49 + "]" * 49)}, {"x": 2**63}],
+)
+def test_deadlines_with_any_arguments_survive_a_restart(arguments: Fields, tmp_path: Path) -> None:
+    """Through rclpy, a message is an OrderedDict of others."""
+    ward = Ward(checkpoint=tmp_path / "checkpoint.json")
+    ward.robot.manager.subscribe("/fallen", "UserFell")
+    ward.robot.outside.publisher(Topic("/fallen", EMPTY)).publish(arguments)
+    ward.robot.deliver()
+    ward.robot.crash_manager()
+    ward.robot.context_manager(checkpoint=tmp_path / "checkpoint.json")
+    ward.robot.advance(65)
+    assert ward.robot.log == ["CallNurse None", "CallAmbulance"]
 
 
 def test_an_obligation_may_be_completed_after_a_restart(tmp_path: Path) -> None:

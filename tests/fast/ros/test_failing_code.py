@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import threading
 from typing import Any
 
@@ -150,11 +151,12 @@ def test_a_node_may_be_closed_by_what_it_calls(place: str) -> None:
 
 CYCLE: list[object] = []
 CYCLE.append(CYCLE)
+DEEP = json.loads("[" * 50 + "]" * 50)
 
 
 @pytest.mark.parametrize(
     "value",
-    [float("nan"), float("inf"), "\ud800", b"x", object(), CYCLE, 10**5_000, "x" * 2**20],
+    [float("nan"), float("inf"), "\ud800", b"x", object(), CYCLE, 10**2_000, 10**5_000, "x" * 2**20, DEEP],
     ids=lambda value: type(value).__name__,
 )
 def test_arguments_that_no_message_carries_are_refused(value: object) -> None:

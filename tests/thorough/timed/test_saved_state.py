@@ -14,6 +14,7 @@ import pytest
 from sleec_runtime import Sleec, VirtualClock, errors
 from sleec_runtime.language import load, parse
 from sleec_runtime.model import Ruleset
+from sleec_runtime.timed.plain_data import DEEPEST
 from tests.support.restarts import RULES, SAVED_AT, Robot, restarted
 
 pytestmark = pytest.mark.filterwarnings("ignore::sleec_runtime.errors.NotEnforced")
@@ -72,6 +73,18 @@ def test_arguments_that_are_not_plain_are_refused_where_code_may_need_them(value
         assert len(str(refusal.value)) < 1_000
         robot.sleec.completed("CallNurse")
     assert len(robot.saved()["pending"]) == 1
+
+
+def test_the_deepest_arguments_that_are_saved_are_restored() -> None:
+    value: list[object] = []
+    for _ in range(DEEPEST - 1):
+        value = [value]
+    robot, other = Robot(), Robot()
+    robot.sleec.trigger("Fall", value, where=value)
+    assert len(other.sleec.restore(robot.sleec.pending_snapshot(SAVED_AT), SAVED_AT)) == 1
+    robot.sleec.trigger("Fall", [value])
+    with pytest.raises(errors.WrongType):
+        robot.sleec.pending_snapshot(SAVED_AT)
 
 
 def test_rules_that_were_replaced_are_reported_as_lost() -> None:
