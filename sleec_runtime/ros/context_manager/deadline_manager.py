@@ -61,7 +61,7 @@ class DeadlineManager:
         self._node.listen(Completed, self._complete)
 
     def occur(self, trigger: str, arguments: Mapping[str, Any]) -> None:
-        """A trigger of a rule with times occurs. Raises as `Sleec.trigger`, and MalformedMessage for arguments that no
+        """A trigger of a rule with time occurs. Raises as `Sleec.trigger`, and MalformedMessage for arguments that no
         message can carry to the tasks, or no checkpoint can hold. Reports this on /executed."""
         arrived = time.time()
         try:

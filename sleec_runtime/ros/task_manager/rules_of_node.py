@@ -40,7 +40,7 @@ def claim_rules(sleec: Sleec, labels: Iterable[str] | None) -> frozenset[str]:
     idle = sorted(label for label in own if rules[label].trigger in managed and code.has_method(label))
     if idle:
         raise NotBound(
-            f"rule `{idle[0]}` has a method, which would never run: the Context Manager decides rules with times, and "
+            f"rule `{idle[0]}` has a method, which would never run: the Context Manager decides rules with time, and "
             "those that share obligations with them",
             idle,
             "give its obligations callables by `implement`, and remove the method",
