@@ -48,6 +48,9 @@ def test_a_question_sets_the_switches(serve, show) -> None:
     page.get_by_role("button", name="Remove “user undressed” from the situation").click()
     expect(page.locator(".answer .must li")).to_have_text(["open curtains"])
     page.get_by_role("combobox", name="What to look for").select_option("together")
+    first = page.get_by_role("combobox", name="Rule", exact=True).input_value()
+    seconds = page.get_by_role("combobox", name="Second rule").locator("option")
+    assert first not in [option.get_attribute("value") for option in seconds.all()]
     page.get_by_role("button", name="Show me").press("Enter")
     expect(page.get_by_role("switch", name="air is bad")).to_be_checked()
     page.get_by_role("combobox", name="What to look for").select_option("exception")

@@ -27,7 +27,8 @@ export function Search() {
   const duties = names.value.obligations;
   const chosenDuty = duties.includes(obligation) ? obligation : duties[0];
   const chosenRule = askable.find((rule) => rule.label === first) ?? askable[0];
-  const other = labels.find((label) => label !== chosenRule?.label) ?? "";
+  const others = labels.filter((label) => label !== chosenRule?.label);
+  const other = others.includes(second) ? second : (others[0] ?? "");
   const exceptions = chosenRule?.clauses.filter((one) => one.number > 0) ?? [];
   const chosenClause = exceptions.find((one) => one.number === clause) ?? exceptions[0];
 
@@ -37,7 +38,7 @@ export function Search() {
       case "obligation":
         return chosenDuty === undefined ? null : { kind, obligation: chosenDuty };
       case "together":
-        return rule === undefined || !other ? null : { kind, rules: [rule, labels.includes(second) ? second : other] };
+        return rule === undefined || !other ? null : { kind, rules: [rule, other] };
       case "exception":
         return rule === undefined || !chosenClause ? null : { kind, rule, clause: chosenClause.number };
       case "readings":
@@ -65,7 +66,7 @@ export function Search() {
             <Select label={t("searchRule")} value={chosenRule?.label ?? ""} set={setFirst} options={labels} words={spoken} />
           )}
           {kind === "together" && (
-            <Select label={t("searchSecondRule")} value={labels.includes(second) ? second : other} set={setSecond} options={labels} words={spoken} />
+            <Select label={t("searchSecondRule")} value={other} set={setSecond} options={others} words={spoken} />
           )}
           {kind === "exception" && (
             <Select
