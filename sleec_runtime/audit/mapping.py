@@ -52,6 +52,10 @@ class TopicMapping:
         """Whether a source gives the domain."""
         return any(source.kind == "domain" for source in self.sources)
 
+    def named(self, *kinds: str) -> frozenset[str]:
+        """The names of the sources of these kinds."""
+        return frozenset(source.name for source in self.sources if source.kind in kinds)
+
     def observations(self, message: RawMessage) -> Iterator[Observation | Misfit]:
         """What a message means: first the domain and the reported values, then events and executions."""
         reported: dict[str, Value | None] = {}

@@ -59,6 +59,10 @@ class Source:
             before + line, span.start - starts[line - 1] + 1, before + end_line, span.end - starts[end_line - 1] + 1
         )
 
+    def in_one_line(self, span: Span) -> str:
+        """The text of `span`, with single spaces for line breaks and indentation."""
+        return " ".join(self.text[span.start : span.end].split())
+
     def line(self, number: int) -> str:
         """The text of a line, by its number in the file, without its line break."""
         starts = self._line_starts

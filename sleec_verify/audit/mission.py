@@ -123,10 +123,8 @@ class Mission:
             self._record(Record(kind, message, name=topic))
         unmapped = self._unmapped()
         if unmapped:
-            names, verb = (
-                listed([f"`{name}`" for name in unmapped]),
-                "it occurs" if len(unmapped) == 1 else "they occur",
-            )
+            names = listed([f"`{name}`" for name in unmapped])
+            verb = "it occurs" if len(unmapped) == 1 else "they occur"
             problem = f"the mapping has no entry for {names}, so the audit cannot see when {verb}"
             self._record(Record("missing-topic", problem))
         auditor = self.auditor
@@ -183,9 +181,7 @@ class Mission:
         """The events and obligations that no message can mean, if a mapping alone gives the log its meaning."""
         if not self._mapping.sources or self._names_events:
             return []
-        events, obligations = (
-            {source.name for source in self._mapping.sources if source.kind == kind} for kind in ("event", "obligation")
-        )
+        events, obligations = self._mapping.named("event"), self._mapping.named("obligation")
         if self.settings.chains:
             events = obligations = events | obligations
         rules = self.ruleset.rules

@@ -5,7 +5,7 @@ A change of an ALWAYS statement changes all its rules, so a title quotes the sta
 
 from __future__ import annotations
 
-from sleec_runtime.model import Rule, Ruleset
+from sleec_runtime.model import Rule, Ruleset, Span
 from sleec_verify.wording.phrases import exception, quoted
 from sleec_verify.wording.sentence import sentence
 
@@ -20,7 +20,7 @@ def rule_name(ruleset: Ruleset, rule: Rule) -> str:
 def always_statement(ruleset: Ruleset, rule: Rule) -> str:
     """The ALWAYS statement of a rule without its exceptions, quoted, on one line."""
     end = rule.hedges[0].span.start if rule.hedges else rule.span.end
-    return quoted(" ".join(ruleset.source.text[rule.span.start : end].split()))
+    return quoted(ruleset.source.in_one_line(Span(rule.span.start, end)))
 
 
 def clause_name(ruleset: Ruleset, rule: Rule, number: int) -> str:

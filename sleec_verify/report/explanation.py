@@ -153,16 +153,14 @@ def _consequence(ruleset: Ruleset, consequence: Consequence) -> str:
     literal = consequence.literal
     name = quoted(literal.name)
     origins = [
-        sentence("{text} ({place})", text=quoted(_text(ruleset, origin.span)), place=_at(ruleset, origin.span))
+        sentence(
+            "{text} ({place})", text=quoted(ruleset.source.in_one_line(origin.span)), place=_at(ruleset, origin.span)
+        )
         for origin in consequence.origins
     ]
     if literal.negated:
         return sentence("    {name} is forbidden by {origins}", name=name, origins=listed(origins))
     return sentence("    {name} is required by {origins}", name=name, origins=listed(origins))
-
-
-def _text(ruleset: Ruleset, span: Span) -> str:
-    return " ".join(ruleset.source.text[span.start : span.end].split())
 
 
 def _at(ruleset: Ruleset, span: Span) -> str:

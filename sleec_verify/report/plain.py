@@ -34,7 +34,7 @@ def located(outcome: CheckedRuleset, seen: dict[str, int]) -> Iterator[Located]:
         source = finding.source or outcome.ruleset.source
         # Labels and messages may hold numbers that change with the place: rule_3, "the NEVER of line 12".
         spans = (finding.span, *(span for span, _ in finding.related))
-        marked = [" ".join(source.text[span.start : span.end].split()) for span in spans]
+        marked = [source.in_one_line(span) for span in spans]
         said = (
             finding.code,
             in_project(source.path),

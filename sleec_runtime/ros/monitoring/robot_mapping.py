@@ -48,9 +48,9 @@ class RobotMapping(TopicMapping):
         self._followed: set[str] = set()
         self._is_domain_known = False
         self._missions = RecentIds()
-        self._own_conditions = {source.name for source in self.sources if source.kind in ("condition", "measure")}
-        self._own_events = {source.name for source in self.sources if source.kind == "event"}
-        self._own_obligations = {source.name for source in self.sources if source.kind == "obligation"}
+        self._own_conditions = self.named("condition", "measure")
+        self._own_events = self.named("event")
+        self._own_obligations = self.named("obligation")
         self._known = set(self._own_events)
         self._triggered: dict[str, tuple[float, list[str]]] = {}
 

@@ -31,7 +31,7 @@ class Assertion:
     @property
     def text(self) -> str:
         """The original text."""
-        return " ".join(self.source.text[self.span.start : self.span.end].split())
+        return self.source.in_one_line(self.span)
 
 
 class Violation(NamedTuple):

@@ -24,7 +24,7 @@ def nevers(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
         for part in conjuncts(guard(ruleset.by_label[label], ruleset.reading, number))
     ]
     for never in nevers_of(ruleset, finding):
-        written = quoted(" ".join(ruleset.source.text[slice(*never.span)].split()))
+        written = quoted(ruleset.source.in_one_line(never.span))
         if parts:
             exception = f"UNLESS {formula_text(ruleset, conjunction(list(dict.fromkeys(parts))))}"
             edits = (TextEdit(never.span.end, never.span.end, f" {exception}"),)

@@ -23,7 +23,7 @@ def rules(ruleset: Ruleset, finding: Finding) -> Iterator[Candidate]:
         rule = ruleset.by_label[label]
         title = sentence("remove rule {rule}", rule=quoted(label))
         if rule.always is not None:  # the text has only the statement of all its rules
-            title = sentence("remove {text}", text=quoted(" ".join(ruleset.source.text[slice(*rule.span)].split())))
+            title = sentence("remove {text}", text=quoted(ruleset.source.in_one_line(rule.span)))
         yield Candidate("rule-removal", title, without(ruleset, rule.span), label)
 
 

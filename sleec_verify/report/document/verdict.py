@@ -181,10 +181,9 @@ def conditions_of_validity(content: Content) -> Iterator[str]:
                     line=line,
                 )
         else:
-            text = ruleset.source.text[one.span.start : one.span.end]
             yield sentence(
                 "It is assumed that this relation holds: {text} (line {line}).",
-                text=quoted(" ".join(text.split())),
+                text=quoted(ruleset.source.in_one_line(one.span)),
                 line=line,
             )
     if not _assumptions(ruleset):

@@ -135,7 +135,7 @@ def _limits_and_aims(ruleset: Ruleset) -> Iterator[Element]:
             kind = sentence("concern") if one.kind == "concern" else sentence("purpose")
         else:
             continue
-        text = element("code", " ".join(ruleset.source.text[one.span.start : one.span.end].split()))
+        text = element("code", ruleset.source.in_one_line(one.span))
         rows.append((f"{ruleset.source.place(one.span).line}", kind, text))
     if rows:
         heads = (sentence("Line"), sentence("Kind"), sentence("Text"))
