@@ -15,7 +15,7 @@ from sleec_verify.encoding.name_uses import names_used
 from sleec_verify.files.toml import read_toml
 from tests.support.misread import COMPARISON, KEYWORD, MODAL, NEGATION, OPPOSITES, SIMILAR, SLIP, codes
 from tests.support.paths import ROOT
-from tests.support.studies import OWN, PUBLISHED
+from tests.support.studies import OWN, published_files
 
 VERBS = ("bring", "clean", "fetch", "follow", "greet", "guide", "hold", "lift", "paint", "repair", "touch", "wash")
 NOUNS = ("basket", "blanket", "camera", "chair", "garden", "kitchen", "lamp", "medicine", "pillow", "robot", "visitor")
@@ -104,7 +104,7 @@ def test_findings_are_rare_in_real_rulesets() -> None:
     expected = read_toml(OWN / "expected.toml", "expected.toml", SleecError)
     kinds = {kind.code for kind in MISREAD_NAME.kinds}
     names = findings = 0
-    for path in (*ROOT.glob("rulesets/**/*.sleec"), *ROOT.glob("examples/**/*.sleec"), *PUBLISHED.glob("*/*.sleec")):
+    for path in (*ROOT.glob("rulesets/**/*.sleec"), *ROOT.glob("examples/**/*.sleec"), *published_files()):
         ruleset = load(path)
         used = names_used(ruleset)
         names += len(used["condition"] | used["event"])

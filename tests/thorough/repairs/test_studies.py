@@ -10,18 +10,23 @@ import pytest
 
 from sleec_verify.repairs.search import RepairSearch
 from tests.support.repairs import assert_is_repair
-from tests.support.studies import PUBLISHED, checked, published_only
+from tests.support.studies import PUBLISHED, checked, published_files, published_only
 
 ISSUES = ("SLEEC101", "SLEEC102", "SLEEC104", "SLEEC105", "SLEEC107", "SLEEC202", "SLEEC301", "SLEEC302")
 """Conflicts, concerns, purposes, forbidden inputs and redundancies."""
-WITHOUT_REPAIR: Mapping[str, Mapping[str, int]] = {"jss_running_example": {"SLEEC301": 1}}
-"""A check of the rules without the redundant one is unknown."""
+WITHOUT_REPAIR: Mapping[str, Mapping[str, int]] = {
+    "jss_running_example": {"SLEEC301": 1},
+    "ALMI-tutorial": {"SLEEC102": 1},
+    "TABIAT": {"SLEEC101": 3, "SLEEC102": 2, "SLEEC104": 3, "SLEEC105": 2},
+    "covidfree": {"SLEEC101": 2, "SLEEC102": 1},
+}
+"""In the first one, a check of the rules without the redundant one is unknown."""
 LONG = ("firefighter-initial", "jss_running_example", "Autocar-corrected", "Autocar")
 """Files with many issues, or with hard ones."""
 
 
 def _files() -> Iterable[object]:
-    for path in sorted(PUBLISHED.glob("*/*.sleec")):
+    for path in published_files():
         marks = [pytest.mark.long] if path.stem in LONG else []
         yield pytest.param(path, id=f"{path.parent.name}-{path.stem}", marks=marks)
     if not PUBLISHED.is_dir():
