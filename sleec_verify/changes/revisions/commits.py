@@ -1,6 +1,13 @@
-"""The meaning of revisions, in the repository of the current folder."""
+"""The meaning of revisions, in the repository of the current folder.
+
+Git reads a short name by a list of rules (gitrevisions(7)), in which a tag comes before a branch, and a branch before
+an abbreviated hash. So a person who may create tags or branches could choose the commit that a name means. Here a name
+has one meaning, or it is rejected. Git always reads a full hash as a hash.
+"""
 
 from __future__ import annotations
+
+import re
 
 from sleec_verify.changes.revisions import git
 from sleec_verify.changes.revisions.git import GitError
@@ -11,8 +18,17 @@ Named = tuple[str, str]
 """The name of a commit in messages, and the commit."""
 
 
+_NAME_END = re.compile(r"[~^:]|@\{")
+"""The end of the name in a revision such as ``main~2``."""
+
+_PSEUDO_REF = re.compile(r"@|[A-Z_]+")
+_HASH = re.compile(r"[0-9a-f]{40}|[0-9a-f]{64}", re.IGNORECASE)
+_ABBREVIATED = re.compile(r"[0-9a-f]{4,63}", re.IGNORECASE)
+_PLACES = ("refs/tags/{}", "refs/heads/{}", "refs/remotes/{}", "refs/remotes/{}/HEAD", "refs/{}")
+
+
 def commit(revision: str) -> str:
-    """The commit of a revision. Raises `GitError`."""
+    """The commit of a revision. Raises `GitError`, also for a name with more than one meaning."""
     found = _commit(revision)
     if found is None:
         raise GitError(f"there is no revision {revision or '(empty)'} in this repository", _hint(revision))
@@ -22,10 +38,32 @@ def commit(revision: str) -> str:
 def _commit(revision: str) -> str | None:
     if not revision or revision.startswith(("-", "^")):
         return None
+    revision = _with_full_name(revision)
     # After `:/text`, which always names a commit, `^{commit}` would be part of the text.
     kind = "" if revision.startswith(":/") else "^{commit}"
     done = git.run("rev-parse", "--verify", "--quiet", f"{revision}{kind}")
     return None if done.returncode else done.stdout.decode().strip()
+
+
+def _with_full_name(revision: str) -> str:
+    """The revision with the full name of its tag or branch. Raises `GitError` if the name has more than one meaning."""
+    end = _NAME_END.search(revision)
+    name = revision[: end.start()] if end else revision
+    if not name or name.startswith("refs/") or _PSEUDO_REF.fullmatch(name) or _HASH.fullmatch(name):
+        return revision
+    places = [place.format(name) for place in _PLACES]
+    listed = git.run("for-each-ref", "--format=%(refname)", "--", *places)
+    meanings = [found for found in listed.stdout.decode("utf-8", "replace").split() if found in places]
+    if _ABBREVIATED.fullmatch(name):
+        meanings += git.run("rev-parse", f"--disambiguate={name}").stdout.decode().split()
+    if len(meanings) > 1:
+        raise GitError(
+            f"{name} has more than one meaning: {', '.join(meanings)}",
+            f"write {meanings[0]} in full, or another of them",
+        )
+    # Git reads `@{upstream}` only after the short name of a branch.
+    is_ref = len(meanings) == 1 and meanings[0].startswith("refs/") and not revision[len(name) :].startswith("@{")
+    return f"{meanings[0]}{revision[len(name) :]}" if is_ref else revision
 
 
 def _hint(revision: str) -> str:

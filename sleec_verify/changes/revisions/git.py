@@ -5,6 +5,9 @@ The settings of a repository name programs: file system monitors, hooks, filters
 - `SETTINGS` turn off file system monitors and hooks, and take no folder of the tree for a repository of its own.
 - No command is used that compares contents or checks files out, so no filter, diff program or editor is asked.
 - No protocol is allowed, so nothing is fetched and nobody is asked for a password.
+
+Other settings change what a revision contains. Replacement objects (git-replace(1)), grafts and the commit graph (a
+cache of parents and trees) are not read.
 """
 
 from __future__ import annotations
@@ -14,10 +17,18 @@ import subprocess
 
 from sleec_runtime.errors import SleecError
 
-SETTINGS = ("safe.bareRepository=explicit", "core.fsmonitor=false", f"core.hooksPath={os.devnull}")
+SETTINGS = (
+    "safe.bareRepository=explicit",
+    "core.fsmonitor=false",
+    f"core.hooksPath={os.devnull}",
+    "core.commitGraph=false",
+    "advice.graftFileDeprecated=false",
+)
 _ENVIRONMENT = {
     "LC_ALL": "C",
     "GIT_ALLOW_PROTOCOL": "none",
+    "GIT_GRAFT_FILE": os.devnull,
+    "GIT_NO_REPLACE_OBJECTS": "1",
     "GIT_NO_LAZY_FETCH": "1",
     "GIT_OPTIONAL_LOCKS": "0",
     "GIT_TERMINAL_PROMPT": "0",
