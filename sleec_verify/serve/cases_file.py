@@ -12,6 +12,7 @@ from sleec_runtime.support.files import read_file
 from sleec_verify.conformance.cases.case import Case, CasesError
 from sleec_verify.conformance.cases.reader import SUFFIX
 from sleec_verify.conformance.cases.writer import list_of, situation_lines
+from sleec_verify.files.folders import beside
 from sleec_verify.files.placement import write_new, write_whole
 from sleec_verify.files.toml import parse_toml
 from sleec_verify.repairs.rules_file import require_writable
@@ -22,7 +23,7 @@ class ServedCases:
     """The file of cases beside the rules at `path`."""
 
     def __init__(self, path: str) -> None:
-        self.path = Path(path.removesuffix(".sleec") + SUFFIX)
+        self.path = Path(beside(path, SUFFIX))
         self._lock = Lock()
 
     def exists(self) -> bool:

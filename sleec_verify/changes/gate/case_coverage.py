@@ -12,6 +12,7 @@ from sleec_verify.conformance.cases.goals import clause_name
 from sleec_verify.conformance.cases.reader import SUFFIX, read_cases
 from sleec_verify.conformance.scenarios.window_coverage import reached_windows
 from sleec_verify.conformance.scenarios.windows import windows_of
+from sleec_verify.files.folders import beside
 
 
 def coverage(ruleset: Ruleset, errors: list[SleecError]) -> Coverage | None:
@@ -19,7 +20,7 @@ def coverage(ruleset: Ruleset, errors: list[SleecError]) -> Coverage | None:
     clauses = {(rule.label, number): rule for rule in ruleset.rules for number, _ in enumerate(rule.clauses())}
     windows = [window for rule in ruleset.rules for window in windows_of(rule)]
     path = Path(ruleset.source.path)
-    file = path.with_name(path.name.removesuffix(".sleec") + SUFFIX)
+    file = path.with_name(beside(path.name, SUFFIX))
     reached: set[tuple[str, int]] = set()
     met: set[object] = set()
     if file.exists():

@@ -10,6 +10,7 @@ from sleec_runtime.errors import SleecError
 from sleec_runtime.model import Ruleset
 from sleec_verify.changes.gate.keys import Policy
 from sleec_verify.encoding.trace_scope import Untimed
+from sleec_verify.files.folders import beside
 
 SUFFIX = ".certificate"
 
@@ -22,7 +23,7 @@ def certificate(ruleset: Ruleset, untimed: Untimed, policy: Policy) -> Manifest 
     from sleec_verify.certificates.verification import check_certificate
 
     path = Path(ruleset.source.path)
-    folder = path.with_name(path.name.removesuffix(".sleec") + SUFFIX)
+    folder = path.with_name(beside(path.name, SUFFIX))
     if not folder.exists():
         return f"the certificate {folder.name} is missing (write it: sleec-verify certify {path.name} -o {folder.name})"
     try:

@@ -13,9 +13,11 @@ from sleec_verify.changes.compare import compare
 from sleec_verify.changes.gate.baseline import KnownFindings
 from sleec_verify.changes.gate.keys import Policy
 from sleec_verify.changes.gate.result import RulesetExamination
+from sleec_verify.changes.revisions.versions import UnreadSubmodule
 from sleec_verify.checks import CHECKS, run_checks
 from sleec_verify.checks.misread_names import ALLOWED_BY_COMMENTS
 from sleec_verify.encoding.trace_scope import Untimed
+from sleec_verify.files.folders import beside
 from sleec_verify.results.finding import CheckResult
 from sleec_verify.results.internal_error import InternalError, internal_errors_of
 from sleec_verify.results.suppressions import Suppression, new_suppressions, suppressions
@@ -35,9 +37,8 @@ CONFLICT = "conflict"
 
 def evidence(path: str, policy: Policy) -> list[str]:
     """The files and folders beside a ruleset that the policy requires."""
-    stem = path.removesuffix(".sleec")
-    cases = [f"{stem}.cases.toml"] if policy.clause_coverage is not None else []
-    return cases + ([f"{stem}.certificate"] if policy.certificates else [])
+    cases = [beside(path, ".cases.toml")] if policy.clause_coverage is not None else []
+    return cases + ([beside(path, ".certificate")] if policy.certificates else [])
 
 
 class Examiner(NamedTuple):
@@ -53,7 +54,7 @@ class Examiner(NamedTuple):
 
     def examine(self, versions: Versions, was: str | None) -> RulesetExamination:
         """A ruleset in two versions. `was` is the path of the older one, if it differs."""
-        found = RulesetExamination(versions.path, was)
+        found = RulesetExamination(versions.path, was, deleted=versions.new is None)
         try:
             with internal_errors_of(versions.path):
                 self._fill_in(found, versions)
@@ -66,6 +67,9 @@ class Examiner(NamedTuple):
         for place in (versions.old, versions.new):
             try:
                 sides.append(None if place is None else parse_source(place.read()))
+            except UnreadSubmodule as error:
+                found.unread = error
+                return
             except SleecError as error:
                 found.errors.append(error)
                 sides.append(None)

@@ -41,8 +41,9 @@ class Policy(NamedTuple):
     `unused_suppressions`: a suppression that no finding needs. `clause_coverage`: cases that reach fewer clauses than
     this percentage; None for no limit. `certificates`: a ruleset without a valid certificate beside it.
     `require_proved` and `require_tied` imply `certificates` and require more of them (`certificate.manifest.Required`).
-    `policy_changes`: a change to the configuration, the baseline or the assertions. `new_suppressions`: a suppression
-    that the base does not have, which then allows nothing.
+    `deletions`: a path that has rules in the base and none now. `policy_changes`: a change to the configuration, the
+    baseline or the assertions. `new_suppressions`: a suppression that the base does not have, which then allows
+    nothing.
     """
 
     findings: Severity | Literal["never"] = "error"
@@ -56,6 +57,7 @@ class Policy(NamedTuple):
     certificates: bool = False
     require_proved: bool = False
     require_tied: bool = False
+    deletions: bool = True
     policy_changes: bool = True
     new_suppressions: bool = True
 
@@ -188,6 +190,7 @@ POLICIES: Mapping[str, _Read] = {
     "certificates": _truth,
     "require-proved": _truth,
     "require-tied": _truth,
+    "deletions": _truth,
     "policy-changes": _truth,
     "new-suppressions": _truth,
 }

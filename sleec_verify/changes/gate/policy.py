@@ -36,6 +36,8 @@ POLICIES: Mapping[str, str] = {
     NEW_SUPPRESSIONS: "a new suppression",
     "suppressions": "a suppression without a reason, or of an unknown finding",
     "unused-suppressions": "a suppression without a finding",
+    "deletions": "a ruleset of the base is missing",
+    "submodules": "a submodule whose rules cannot be read",
     "new-conflicts": "new conflicts",
     "lost-obligations": "a lost obligation in some situation",
     "ruled-out-situations": "new assumptions exclude situations",
@@ -89,6 +91,10 @@ def _new_suppressions(one: RulesetExamination) -> Iterator[Block]:
 
 
 def _on_ruleset(one: RulesetExamination, policy: Policy) -> Iterator[Block]:
+    if one.unread is not None:
+        yield _block("submodules", one.path, f"{one.unread} ({one.unread.hint})")
+    elif one.deleted and policy.deletions:
+        yield _block("deletions", one.path, "the base has this ruleset, and the change has none at this path")
     for problem in one.problems:
         what = f"line {one.line(problem.span)}: {problem.message} ({problem.hint})"
         yield _block("suppressions", one.path, what, problem.span)

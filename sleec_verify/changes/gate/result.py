@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from sleec_verify.changes.assertions.assertion import AssertionResult
     from sleec_verify.changes.compare import Difference
     from sleec_verify.changes.gate.keys import Target
+    from sleec_verify.changes.revisions.versions import UnreadSubmodule
     from sleec_verify.results.finding import CheckResult, Finding
     from sleec_verify.results.suppressions import Suppression
 
@@ -60,6 +61,7 @@ class RulesetExamination:
     read. `findings` count. `allowed` are suppressed, each with its suppression, and `known` are in the baseline. `new`
     suppressions are not in the base, `unused` ones match no finding, and `problems` are invalid suppressions.
     `conflicting` are the rules of each conflict of the base, if the baseline has some of the current ones.
+    `deleted`: the base has it and the change does not. `unread` is why the rules of a submodule cannot be read.
     `certificate` is the content of the valid one, or why there is none, if one is required.
     """
 
@@ -77,6 +79,8 @@ class RulesetExamination:
     conflicting: frozenset[frozenset[str]] = frozenset()
     coverage: Coverage | None = None
     certificate: Manifest | str | None = None
+    deleted: bool = False
+    unread: UnreadSubmodule | None = None
     errors: list[SleecError] = field(default_factory=list)
 
     def line(self, span: Span) -> int:

@@ -6,13 +6,18 @@ Git is asked through its executable; nothing in the repository or its index is c
 from __future__ import annotations
 
 import os
-import stat
 from collections.abc import Callable, Collection, Mapping, Sequence
 
 from sleec_runtime.errors import UnreadableFile
-from sleec_runtime.support.files import check_size
 from sleec_verify.changes.revisions import git
 from sleec_verify.changes.revisions.git import GitError
+from sleec_verify.changes.revisions.listing import (
+    FILE,
+    CommitListing,
+    CurrentListing,
+    content_of,
+    entries_of_commit,
+)
 from sleec_verify.changes.revisions.versions import Version, Versions
 from sleec_verify.files.folders import GIT, SUFFIX, files_at, leads_below
 
@@ -30,7 +35,7 @@ class Repository:
         done = git.run("rev-parse", "--absolute-git-dir", "--show-toplevel")
         kept, _, folder = os.fsdecode(done.stdout).rstrip("\n").partition("\n")
         # A bare repository in the working tree may be part of a change; git before 2.38 takes it for the current one.
-        if b"safe.bareRepository" in done.stderr or (kept and leads_below(os.curdir, kept, "")):
+        if b"safe.bareRepository" in done.stderr or (kept and leads_below(os.curdir, kept)):
             raise GitError("the current folder is inside a git directory", "change to a folder of the working tree")
         if b"dubious ownership" in done.stderr:
             raise GitError(
@@ -65,52 +70,18 @@ class Repository:
             GitError: a link leads out of the working tree.
         """
         shown = os.path.relpath(os.path.join(self.folder, path))
-        if not leads_below(shown, self.folder, ""):
+        if not leads_below(shown, self.folder):
             raise GitError(f"{shown} points outside the repository", "replace the link by the file")
         return _as_file(shown)
 
     def entry(self, commit: str, path: str) -> tuple[str, str] | None:
         """The mode and the object of a path in a commit; None if there is none."""
-        return self._entries(commit, path).get(path)
-
-    def files(self, commit: str, path: str) -> dict[str, str]:
-        """The rulesets at or below a path in a commit, and the file at exactly that path, with their objects."""
-        return {name: blob for name, blob in self._tree(commit, path).items() if name == path or name.endswith(SUFFIX)}
-
-    def _tree(self, commit: str, path: str) -> dict[str, str]:
-        """The files at or below a path in a commit, without links and submodules."""
-        found = self._entries(commit, path, "-r")
-        return {name: blob for name, (mode, blob) in found.items() if mode.startswith("100")}
-
-    def _entries(self, commit: str, path: str, *options: str) -> dict[str, tuple[str, str]]:
-        done = git.run("ls-tree", "-z", "--full-tree", *options, commit, *([] if path == "." else ["--", path]))
-        if done.returncode:
-            raise GitError(f"git cannot list the files of {commit}: {git.complaint(done)}")
-        found = {}
-        for entry in filter(None, done.stdout.split(b"\0")):
-            about, _, name = entry.partition(b"\t")
-            mode, _, blob = about.decode().split()
-            found[os.fsdecode(name)] = (mode, blob)
-        return found
+        found = (one for one in entries_of_commit(self.folder, commit, path) if one.name == path)
+        return next(((one.mode, one.blob) for one in found if one.blob is not None), None)
 
     def content(self, blob: str) -> bytes:
-        """The bytes of an object.
-
-        Raises:
-            GitError: it is missing, as in a partial clone: nothing is fetched.
-            OSError: it is larger than the limit.
-        """
-        check_size(int(self._cat("-s", blob)))
-        return self._cat("blob", blob)
-
-    def _cat(self, what: str, blob: str) -> bytes:
-        done = git.run("cat-file", what, blob)
-        if done.returncode:
-            raise GitError(
-                f"git cannot read the object {blob}: {git.complaint(done)}",
-                "a partial clone does not have all files: clone without --filter",
-            )
-        return done.stdout
+        """The bytes of an object. Raises as `content_of` does."""
+        return content_of(self.folder)(blob)
 
     def versions(
         self,
@@ -127,14 +98,13 @@ class Repository:
         """
         found: dict[str, Versions] = {}
 
-        def add(before: Mapping[str, str], after: Mapping[str, Version]) -> None:
+        def add(before: Mapping[str, Version], after: Mapping[str, Version]) -> None:
             for name in sorted({*before, *after}):
-                place = Version(f"{old[0]}:{name}", before[name], self.content) if name in before else None
-                found.setdefault(name, Versions(name, place, after.get(name)))
+                found.setdefault(name, Versions(name, before.get(name), after.get(name)))
 
         for path in paths:
             for inside in self._inside(path):
-                before = self.files(old[1], inside)
+                before = self._in_commit(*old, inside)
                 if before:
                     break
             after = self._now(path, inside) if new[1] is None else self._in_commit(new[0], new[1], inside)
@@ -145,7 +115,7 @@ class Repository:
                 )
             add(before, after)
         for inside in sorted(also):
-            add(self.files(old[1], inside), self._listed(inside))
+            add(self._in_commit(*old, inside), self._listed(inside))
         return list(found.values())
 
     def now(self, paths: Sequence[str]) -> dict[str, Version]:
@@ -164,16 +134,15 @@ class Repository:
 
     def touched(self, commit: str, paths: Collection[str]) -> set[str]:
         """Those of `paths`, files or folders of the repository, that differ from a commit, or contain a difference."""
-        before = self._tree(commit, ".")
+        entries = entries_of_commit(self.folder, commit, ".", "-r")
+        before = {one.name: one.blob for one in entries if one.mode.startswith(FILE)}
         files = [file for path in paths for file in files_at(os.path.join(self.folder, path))]
         now = {os.path.relpath(file, self.folder): Version(file).named(len(commit)) for file in files}
         changed = [name for name in before.keys() | now.keys() if before.get(name) != now.get(name)]
         return {path for name in changed for path in _with_parents(name)} & {*paths}
 
     def _in_commit(self, called: str, commit: str, path: str) -> dict[str, Version]:
-        return {
-            name: Version(f"{called}:{name}", blob, self.content) for name, blob in self.files(commit, path).items()
-        }
+        return CommitListing(self.folder, called, commit).rulesets(path)
 
     def _inside(self, path: str) -> list[str]:
         """The positions of a path, at least one. Raises `GitError` if there is none."""
@@ -185,7 +154,7 @@ class Repository:
     def _now(self, path: str, inside: str) -> dict[str, Version]:
         """The current rulesets at or below a path. A named file is used as it is, unless it is a link that leads
         out of the working tree."""
-        if not leads_below(path, self.folder, ""):
+        if not leads_below(path, self.folder):
             self._skipped(path)
             return {}
         if os.path.lexists(path) and not os.path.isdir(path):
@@ -193,46 +162,12 @@ class Repository:
         return self._listed(inside)
 
     def _listed(self, inside: str) -> dict[str, Version]:
-        """The rulesets that git would commit at or below a path of the repository: nothing that it ignores, no link, no
-        submodule, and nothing of another repository in it.
-
-        Raises:
-            GitError, UnreadableFile: git cannot list it, or a folder may not be read.
-        """
-        listing = ("ls-files", "-z", "-t", "--stage", "--cached", "--others", "--exclude-standard", "--", inside)
-        done = git.run("-C", self.folder, *listing)
-        if done.returncode:
-            raise GitError(f"git cannot list {inside}: {git.complaint(done)}")
-        found = {}
-        for entry in filter(None, done.stdout.split(b"\0")):
-            status, _, rest = entry.partition(b" ")
-            about, _, raw = (b"", b"", rest) if status == b"?" else rest.partition(b"\t")
-            name = os.fsdecode(raw)
-            if name.endswith(SUFFIX):
-                shown = os.path.relpath(os.path.join(self.folder, name))
-                if not leads_below(shown, self.folder, SUFFIX):
-                    self._skipped(shown)
-                elif _is_file(shown) and os.path.realpath(shown) == os.path.join(self.folder, name):
-                    found[name] = Version(shown)
-                elif status == b"S":  # left out of a sparse checkout: use the version in the index
-                    found[name] = Version(shown, about.split()[1].decode(), self.content)
-        return found
+        return CurrentListing(self.folder, self.folder, self._skipped).rulesets(inside)
 
 
 def _as_file(path: str) -> str:
     """A path that never stands for standard input."""
     return os.path.join(os.curdir, path) if path == "-" else path
-
-
-def _is_file(path: str) -> bool:
-    """Whether the path is a file and not a link. Raises `UnreadableFile` if this is unknown."""
-    try:
-        return stat.S_ISREG(os.lstat(path).st_mode)
-    except PermissionError:
-        folder = os.path.dirname(path)
-        raise UnreadableFile(f"the folder {folder} cannot be read: Permission denied") from None
-    except OSError:
-        return False
 
 
 def _with_parents(name: str) -> list[str]:

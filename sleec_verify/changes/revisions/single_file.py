@@ -9,11 +9,9 @@ from typing import NamedTuple
 from sleec_runtime.errors import UnreadableFile
 from sleec_runtime.support.files import read_file
 from sleec_verify.changes.revisions.git import GitError
+from sleec_verify.changes.revisions.listing import FILE, LINK, MOST_LINKS
 from sleec_verify.changes.revisions.repository import Repository
 from sleec_verify.files.folders import leads_below
-
-_LINK = "120000"
-_MOST_LINKS = 40
 
 
 class Tree(NamedTuple):
@@ -42,7 +40,7 @@ class Tree(NamedTuple):
         target = os.path.join(self.repository.folder, path)
         if not os.path.lexists(target) or os.path.isdir(target):
             return None
-        if not leads_below(target, self.repository.folder, ""):
+        if not leads_below(target, self.repository.folder):
             raise self._leads_out(path)
         try:
             return read_file(target)
@@ -50,15 +48,15 @@ class Tree(NamedTuple):
             raise self._unreadable(path, error) from None
 
     def _read_committed(self, path: str, commit: str) -> bytes | None:
-        for _ in range(_MOST_LINKS):
+        for _ in range(MOST_LINKS):
             mode, blob = self.repository.entry(commit, path) or ("", "")
-            if not mode.startswith(("100", _LINK)):
+            if not mode.startswith((FILE, LINK)):
                 return None
             try:
                 content = self.repository.content(blob)
             except OSError as error:
                 raise self._unreadable(path, error) from None
-            if mode != _LINK:
+            if mode != LINK:
                 return content
             target = posixpath.normpath(posixpath.join(posixpath.dirname(path), os.fsdecode(content)))
             if target.startswith(("../", "/")):

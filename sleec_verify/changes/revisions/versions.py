@@ -17,6 +17,10 @@ class MissingSide(SleecError):
     """A ruleset that only one side has."""
 
 
+class UnreadSubmodule(SleecError):
+    """A submodule whose rulesets cannot be read, because it is not checked out or lacks a commit."""
+
+
 class Version(NamedTuple):
     """The location of one version: a file (`name` is its path), or an object (`blob`) of a repository, which
     `content` reads."""

@@ -108,7 +108,7 @@ def _below(folder: str) -> Iterator[str]:
             and not os.path.exists(os.path.join(parent, name, "pyvenv.cfg"))
         )
         for path in (os.path.join(parent, name) for name in sorted(names) if name.endswith(SUFFIX)):
-            if os.path.islink(path) and not leads_below(path, folder, SUFFIX):
+            if os.path.islink(path) and not (leads_below(path, folder) and os.path.realpath(path).endswith(SUFFIX)):
                 # To skip it might hide what reaches around the dispatch.
                 raise UnreadableFile(
                     f"the link {path} does not lead to a Python file below {folder}",

@@ -34,7 +34,10 @@ def test_only_what_changed_is_examined(cli: Cli, repository: Repository) -> None
 
 def test_added_and_deleted_files(cli: Cli, repository: Repository) -> None:
     repository.write(a_sleec=None, b_sleec="RULE b\nWHEN u THEN x\n")
-    config(repository, block='lost-obligations = ["o"]')
+    code, said = gated(cli)
+    assert code == 1
+    assert [(block["policy"], block["where"]) for block in said["blocks"]] == [("deletions", "a.sleec")]
+    config(repository, block='lost-obligations = ["o"]\ndeletions = false')
     code, said = gated(cli)
     assert code == 1
     assert [(block["policy"], block["where"]) for block in said["blocks"]] == [("lost-obligations", "a.sleec")]

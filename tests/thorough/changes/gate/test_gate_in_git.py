@@ -5,13 +5,14 @@ from __future__ import annotations
 import os
 import re
 import shutil
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from sleec_verify.report import FORMATS
 from tests.support.cli import Cli
-from tests.support.gates import CLASH, OLD, config, gated, policies
+from tests.support.gates import CLASH, LOST, OLD, config, gated, policies
 from tests.support.repository import Repository
 
 pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine")
@@ -89,23 +90,130 @@ def test_rulesets_that_are_not_added_yet_are_looked_at(cli: Cli, repository: Rep
     assert [one["path"] for one in gated(cli)[1]["rulesets"]] == ["deep/new.sleec"]
 
 
-def test_submodules_are_of_another_repository(cli: Cli, repository: Repository, tmp_path_factory: Any) -> None:
+@pytest.fixture
+def submodule(repository: Repository, tmp_path_factory: pytest.TempPathFactory) -> Repository:
+    """The checkout of a submodule `sub`, which `main` has."""
     other = Repository(tmp_path_factory.mktemp("other"))
-    other.commit(x_sleec=CLASH)
+    other.commit(x_sleec=OLD)
     repository.git("-c", "protocol.file.allow=always", "submodule", "--quiet", "add", str(other.folder), "sub")
-    assert gated(cli)[1]["unchanged"] == 1
     repository.commit()
-    assert gated(cli)[1]["unchanged"] == 1
-    assert "there is no .sleec file at or below sub" in cli("gate", "--base", "main", "sub").err
+    made = Repository(repository.folder / "sub")
+    repository.git("checkout", "-q", "-b", "feature")
+    return made
 
 
-def test_links_are_not_followed(cli: Cli, repository: Repository) -> None:
+def test_a_submodule_is_examined_where_it_is_checked_out(
+    cli: Cli, repository: Repository, submodule: Repository
+) -> None:
+    assert gated(cli)[1]["unchanged"] == 2
+    assert gated(cli, "sub")[1]["unchanged"] == 1
+    submodule.commit(x_sleec=CLASH)
+    for committed in (False, True):
+        if committed:
+            repository.commit()
+        code, said = gated(cli)
+        assert (code, policies(said)) == (1, {"findings", "new-conflicts"})
+        assert [one["path"] for one in said["rulesets"]] == ["sub/x.sleec"]
+
+
+def test_a_submodule_that_is_not_checked_out_blocks_if_it_changes(
+    cli: Cli, repository: Repository, submodule: Repository
+) -> None:
+    submodule.commit(x_sleec=CLASH)
+    repository.commit()
+    repository.git("submodule", "--quiet", "deinit", "--force", "sub")
+    code, said = gated(cli)
+    assert (code, policies(said), said["blocks"][0]["where"]) == (1, {"submodules"}, "sub")
+    assert "sub cannot be read" in said["blocks"][0]["what"]
+    repository.git("checkout", "-q", "main")
+    repository.git("submodule", "--quiet", "deinit", "--force", "sub")
+    assert gated(cli, base="main")[:1] == (0,), "it has not changed"
+
+
+def test_a_submodule_without_the_commit_of_the_base_blocks(
+    cli: Cli, repository: Repository, submodule: Repository, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    submodule.commit(x_sleec=LOST)
+    repository.commit()
+    shutil.rmtree(submodule.folder / ".git", ignore_errors=True)
+    (submodule.folder / ".git").unlink(missing_ok=True)
+    Repository(submodule.folder).commit()
+    code, said = gated(cli)
+    assert (code, policies(said)) == (1, {"submodules"})
+
+
+def test_a_folder_that_becomes_a_submodule_is_missed(
+    cli: Cli, repository: Repository, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    repository.put("rules/b.sleec", OLD)
+    repository.commit()
+    repository.git("checkout", "-q", "-b", "feature")
+    other = Repository(tmp_path_factory.mktemp("other"))
+    other.commit(b_sleec=LOST)
+    repository.git("rm", "-rq", "rules")
+    repository.git("-c", "protocol.file.allow=always", "submodule", "--quiet", "add", str(other.folder), "rules")
+    repository.commit()
+    config(repository, block='lost-obligations = ["p"]')
+    repository.git("branch", "-f", "main", "HEAD~2")
+    code, said = gated(cli, "--assert", "always p when t and c")
+    assert (code, policies(said) & {"assertions"}) == (1, {"assertions"})
+    repository.git("submodule", "--quiet", "deinit", "--force", "rules")
+    code, said = gated(cli)
+    assert code == 1
+    assert {"deletions", "submodules"} <= policies(said)
+
+
+def test_a_ruleset_that_disappears_blocks(cli: Cli, repository: Repository) -> None:
+    repository.git("mv", "a.sleec", "a.txt")
+    code, said = gated(cli)
+    assert (code, policies(said)) == (1, {"deletions"})
+    repository.git("mv", "a.txt", "a.SLEEC")
+    assert gated(cli)[:1] == (0,)
+    repository.put("a.SLEEC", CLASH)
+    assert policies(gated(cli)[1]) == {"findings", "new-conflicts"}
+
+
+def test_a_ruleset_that_becomes_a_link_is_examined(cli: Cli, repository: Repository, outside: Path) -> None:
+    repository.put("b.sleec", CLASH)
+    repository.commit()
+    (repository.folder / "a.sleec").unlink()
+    (repository.folder / "a.sleec").symlink_to("b.sleec")
+    for committed in (False, True):
+        if committed:
+            repository.git("checkout", "-q", "-b", "feature")
+            repository.commit()
+        code, said = gated(cli)
+        assert (code, policies(said)) == (1, {"findings", "new-conflicts"})
+        assert [one["path"] for one in said["rulesets"]] == ["a.sleec"]
+    (repository.folder / "a.sleec").unlink()
+    (repository.folder / "a.sleec").symlink_to(outside / "secret")
+    ran = cli("gate", "--base", "main")
+    assert ran.code == 1
+    assert "blocks: deletions: a.sleec" in ran.out
+    assert "hunter2" not in ran.out + ran.err
+
+
+def test_links_in_the_base_are_followed(cli: Cli, repository: Repository) -> None:
+    repository.put("rules/b.sleec", OLD)
+    (repository.folder / "link").symlink_to("other")
+    (repository.folder / "other").symlink_to("rules")
+    (repository.folder / "b.sleec").symlink_to("link/b.sleec")
+    repository.commit()
+    assert gated(cli)[1]["unchanged"] == 5
+    (repository.folder / "link").unlink()
+    code, said = gated(cli)
+    assert code == 1
+    assert {block["where"] for block in said["blocks"] if block["policy"] == "deletions"} == {"b.sleec", "link/b.sleec"}
+
+
+def test_links_inside_the_repository_are_followed(cli: Cli, repository: Repository) -> None:
     (repository.folder / "link.sleec").symlink_to("a.sleec")
     (repository.folder / "broken.sleec").symlink_to("nothing.sleec")
     (repository.folder / "loop").symlink_to(".")
-    assert gated(cli)[1]["unchanged"] == 1
+    code, said = gated(cli)
+    assert (code, said["unchanged"], [one["path"] for one in said["rulesets"]]) == (0, 1, ["link.sleec"])
     repository.commit()
-    assert gated(cli)[1]["unchanged"] == 1
+    assert gated(cli)[1]["unchanged"] == 2
     assert gated(cli, "link.sleec")[1]["unchanged"] == 1
 
 

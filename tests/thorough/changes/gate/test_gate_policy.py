@@ -167,9 +167,12 @@ def test_a_link_in_the_place_of_a_folder_hides_nothing(cli: Cli, repository: Rep
     (repository.folder / "rules").rename(repository.folder / "hidden")
     repository.put("hidden/b.sleec", LOST)
     (repository.folder / "rules").symlink_to("good")
+    assert gated(cli)[0] == 0, "the same rules are behind the link"
+    repository.put("good/b.sleec", LOST)
     for paths in ((), ("rules",)):
         code, said = gated(cli, *paths)
         assert (code, policies(said)) == (1, {"lost-obligations"})
+        assert "rules/b.sleec" in {block["where"] for block in said["blocks"]}
 
 
 def test_the_nearest_configuration_is_that_of_the_base(

@@ -51,6 +51,7 @@ KEYS: dict[str, tuple[str, str, str]] = {
     "certificates": ("certificates = true", "", "block.certificates changes from true to false"),
     "require-proved": ("require-proved = true", "", "block.require-proved changes from true to false"),
     "require-tied": ("require-tied = true", "", "block.require-tied changes from true to false"),
+    "deletions": ("", "deletions = false", "block.deletions changes from true to false"),
     "policy-changes": ("", "policy-changes = false", "block.policy-changes changes from true to false"),
     "new-suppressions": ("", "new-suppressions = false", "block.new-suppressions changes from true to false"),
 }
