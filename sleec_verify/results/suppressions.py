@@ -1,7 +1,9 @@
-"""Suppressions, ``# sleec: allow SLEEC202 because …`` in the text of rules: a finding that the team accepts, with the
-reason.
+"""Suppressions, ``# sleec: allow SLEEC202@0f61c2a98b3d4e57 because …`` in the text of rules: a finding that the team
+accepts, with the reason.
 
-After a statement, it is about that line. On its own line, it is about the rule or line below it.
+After a statement, it is about that line. On its own line, it is about the rule or line below it. The fingerprint after
+`@` names one finding, so that a suppression allows no later one. Codes about names need no fingerprint: the place is
+that of the name.
 """
 
 from __future__ import annotations
@@ -14,26 +16,32 @@ from typing import NamedTuple
 from sleec_runtime.errors import Problem
 from sleec_runtime.model import Ruleset, Span
 from sleec_verify.results.finding import Finding
+from sleec_verify.results.fingerprint import fingerprint
 
 _MARK = re.compile(r"(?://|#)\s*sleec\s*:\s*(.*?)\s*$")
-_ALLOW = re.compile(r"allow\s+([\w-]+(?:\s*,\s*[\w-]+)*)(?:\s+because\b\s*(.*))?$", re.IGNORECASE)
+_ALLOW = re.compile(r"allow\s+([\w@-]+(?:\s*,\s*[\w@-]+)*)(?:\s+because\b\s*(.*))?$", re.IGNORECASE)
 _EXAMPLE = "write: # sleec: allow SLEEC202 because the sensor comes next year"
 
 
 class Suppression(NamedTuple):
-    """An allowed code or check in the lines from `first` to `last`, with the reason. `span` is the comment; a
-    comment with several codes has a suppression for each. `about` are the words of its line, and of the first line
-    of the rule of that line."""
+    """An allowed code or check in the lines from `first` to `last`, with the fingerprint of the finding (empty without
+    one), and the reason. `span` is the comment; a comment with several codes has a suppression for each. `about` are
+    the words of its line, and of the first line of the rule of that line."""
 
     allowed: str
+    fingerprint: str
     reason: str
     first: int
     last: int
     span: Span
     about: tuple[str, str]
 
+    def allows(self, ruleset: Ruleset, finding: Finding) -> bool:
+        """Whether it allows a finding: it covers this one, and names it."""
+        return self.covers(ruleset, finding) and self.fingerprint == fingerprint(ruleset, finding)
+
     def covers(self, ruleset: Ruleset, finding: Finding) -> bool:
-        """Whether it allows a finding: one of the finding's places in the rules is in these lines."""
+        """Whether it is about a finding like this one: one of the finding's places in the rules is in these lines."""
         if self.allowed not in (finding.code, finding.check) or finding.source is not None:
             return False
         places = map(ruleset.source.place, (finding.span, *(span for span, _ in finding.related)))
@@ -62,9 +70,9 @@ def suppressions(ruleset: Ruleset, known: Collection[str] | None = None) -> tupl
                 assert said is not None
                 alone = not line[: mark.start()].strip()
                 first, last = _lines_below(lines, number, extents) if alone else (number, number)
-                allowed = (name.strip() for name in said.group(1).split(","))
+                allowed = (name.strip().partition("@") for name in said.group(1).split(","))
                 about = _about(lines, first, extents)
-                found += (Suppression(name, said.group(2), first, last, span, about) for name in allowed)
+                found += (Suppression(name, one, said.group(2), first, last, span, about) for name, _, one in allowed)
         position += len(line) + 1
     return found, problems
 
@@ -83,7 +91,12 @@ def new_suppressions(old: Iterable[Suppression], new: Iterable[Suppression]) -> 
 
 
 def _identity(one: Suppression) -> tuple[object, ...]:
-    return one.allowed, one.reason, one.about
+    return one.allowed, one.fingerprint, one.reason, one.about
+
+
+def text_to_write(ruleset: Ruleset, finding: Finding, reason: str = "REASON") -> str:
+    """The suppression of a finding."""
+    return f"# sleec: allow {finding.code}@{fingerprint(ruleset, finding)} because {reason}"
 
 
 def _wrong(said: re.Match[str] | None, known: Collection[str] | None) -> tuple[str, str] | None:
@@ -91,7 +104,7 @@ def _wrong(said: re.Match[str] | None, known: Collection[str] | None) -> tuple[s
         return "this comment starts with sleec: but allows nothing", _EXAMPLE
     if not said.group(2):
         return "a suppression needs a reason", "add the reason: because …"
-    for name in (part.strip() for part in said.group(1).split(",")):
+    for name in (part.strip().partition("@")[0] for part in said.group(1).split(",")):
         if known is not None and name not in known:
             from sleec_runtime.support.suggestions import nearest
 

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import json
+import re
 from typing import Any
 
+from sleec_runtime.language import parse
+from sleec_verify.checks import run_checks
+from sleec_verify.results.fingerprint import fingerprint
 from tests.support.cli import Cli
 from tests.support.repository import Repository
 from tests.support.schemas import validator
@@ -18,6 +22,18 @@ TIMED = "MEASURE n: integer\nRULE a\nWHEN t THEN o WITHIN n minutes OTHERWISE p\
 TIMED_ELSE = TIMED.replace("OTHERWISE p", "OTHERWISE q")
 CASES = '[[case]]\nwhen = ["t"]\nobligations = ["o"]\n'
 BOTH = CASES + '[[case]]\nwhen = ["t"]\ngiven = { c = true }\nobligations = ["p"]\n'
+
+
+def with_fingerprints(text: str) -> str:
+    """The text with the fingerprint of the only finding of its code or check in place of each ``@?``."""
+    ruleset = parse(text)
+    findings = [finding for result in run_checks(ruleset) for finding in result.findings]
+
+    def of(match: re.Match[str]) -> str:
+        (mark,) = {fingerprint(ruleset, one) for one in findings if match[1] in (one.code, one.check)}
+        return f"{match[1]}@{mark}"
+
+    return re.sub(r"([\w-]+)@\?", of, text)
 
 
 def config(repository: Repository, *lines: str, block: str = "") -> None:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
-from sleec_runtime.errors import SleecError
+from sleec_runtime.errors import Problem, SleecError
 from sleec_runtime.language import parse_source
 from sleec_runtime.model import Ruleset, Source
 from sleec_verify.changes.compare import compare
@@ -14,25 +14,25 @@ from sleec_verify.changes.gate.baseline import KnownFindings
 from sleec_verify.changes.gate.keys import Policy
 from sleec_verify.changes.gate.result import RulesetExamination
 from sleec_verify.changes.revisions.versions import UnreadSubmodule
-from sleec_verify.checks import CHECKS, run_checks
+from sleec_verify.checks import CHECKS
 from sleec_verify.checks.misread_names import ALLOWED_BY_COMMENTS
 from sleec_verify.encoding.trace_scope import Untimed
 from sleec_verify.files.folders import beside
-from sleec_verify.results.finding import CheckResult
+from sleec_verify.results.finding import CheckResult, Finding
 from sleec_verify.results.internal_error import InternalError, internal_errors_of
-from sleec_verify.results.suppressions import Suppression, new_suppressions, suppressions
+from sleec_verify.results.suppressions import Suppression, new_suppressions, suppressions, text_to_write
 
 if TYPE_CHECKING:
-    from sleec_runtime.errors import Problem
     from sleec_verify.changes.revisions.versions import Versions
 
 Check = Callable[[Ruleset], tuple[CheckResult, ...]]
 """A function that checks a ruleset, or reads the result from a cache."""
 
+_MOST = 3
+"""The maximal number of findings whose suppression a message shows."""
+
 Locate = Callable[[str], str]
 """From a path of the repository to the current file. Raises `SleecError` for a path outside the repository."""
-
-CONFLICT = "conflict"
 
 
 def evidence(path: str, policy: Policy) -> list[str]:
@@ -105,14 +105,6 @@ class Examiner(NamedTuple):
                 new if new is not None else _nothing(old, f"no {versions.path}"),
                 untimed=self.untimed,
             )
-            if old is not None and any(f.check == CONFLICT for f in found.known):
-                found.conflicting = _conflicting(old, self.untimed)
-
-
-def _conflicting(ruleset: Ruleset, untimed: Untimed) -> frozenset[frozenset[str]]:
-    """The rules of each conflict."""
-    (result,) = run_checks(ruleset, [CONFLICT], untimed=untimed)
-    return frozenset(frozenset(finding.rules) for finding in result.findings)
 
 
 def _nothing(other: Ruleset | None, called: str) -> Ruleset:
@@ -139,14 +131,31 @@ def check_ruleset(
     used = set()
     paths = [found.path, *([] if found.was is None else [found.was])]
     for finding in (finding for result in found.results for finding in result.findings):
-        covering = [one for one in allowing if one.covers(ruleset, finding)]
+        covering = [one for one in allowing if one.allows(ruleset, finding)]
         used.update(covering[:1])
         allowed_by = next((one for one in covering if one not in refused), None)
         if allowed_by is not None:
             found.allowed.append((finding, allowed_by))
-        elif known.has(finding, paths):
+        elif known.has(ruleset, finding, paths):
             found.known.append(finding)
         else:
             found.findings.append(finding)
     # The check of names heeds its suppressions itself, so nobody sees those findings.
     found.unused = [one for one in allowing if one not in used and one.allowed not in ALLOWED_BY_COMMENTS]
+    for one in [*found.unused]:
+        about = [finding for finding in found.findings if one.covers(ruleset, finding)]
+        if about:
+            found.unused.remove(one)
+            found.problems.append(_names_no_finding(ruleset, one, about))
+
+
+def _names_no_finding(ruleset: Ruleset, one: Suppression, about: Sequence[Finding]) -> Problem:
+    """A suppression at the place of findings that names none of them."""
+    message = "a suppression allows one finding, and this one has "
+    message += (
+        f"the fingerprint of none: the rules have changed since {one.fingerprint}"
+        if one.fingerprint
+        else "no fingerprint"
+    )
+    texts = [text_to_write(ruleset, finding, one.reason) for finding in about[:_MOST]]
+    return Problem(message, one.span, f"to allow what is there now, write: {' or '.join(texts)}")

@@ -166,13 +166,11 @@ def _places(
 
 
 def _new_conflicts(one: RulesetExamination) -> Iterator[Block]:
-    """The new conflicts that no suppression allows and that are not in the baseline, which both identify a conflict
-    by its rules. If these rules conflicted in the base already, they now do so in more situations, which the
-    baseline does not cover."""
+    """The new conflicts that no suppression allows and that are not in the baseline."""
     if one.difference is None:
         return
     kept = {frozenset(f.rules) for f, _ in one.allowed if f.code == CONFLICT}
-    kept |= {frozenset(f.rules) for f in one.known if f.code == CONFLICT} - one.conflicting
+    kept |= {frozenset(f.rules) for f in one.known if f.code == CONFLICT}
     # Rules may have two conflicts, of which only one is allowed.
     kept -= {frozenset(f.rules) for f in one.findings if f.code == CONFLICT}
     for conflict in one.difference.conflicts:

@@ -60,7 +60,6 @@ class RulesetExamination:
     `was` is its path in the base, if that differs. `ruleset` is the current one; None if it was deleted or cannot be
     read. `findings` count. `allowed` are suppressed, each with its suppression, and `known` are in the baseline. `new`
     suppressions are not in the base, `unused` ones match no finding, and `problems` are invalid suppressions.
-    `conflicting` are the rules of each conflict of the base, if the baseline has some of the current ones.
     `deleted`: the base has it and the change does not. `unread` is why the rules of a submodule cannot be read.
     `certificate` is the content of the valid one, or why there is none, if one is required.
     """
@@ -76,7 +75,6 @@ class RulesetExamination:
     new: list[Suppression] = field(default_factory=list)
     unused: list[Suppression] = field(default_factory=list)
     problems: list[Problem] = field(default_factory=list)
-    conflicting: frozenset[frozenset[str]] = frozenset()
     coverage: Coverage | None = None
     certificate: Manifest | str | None = None
     deleted: bool = False

@@ -65,7 +65,7 @@ def _shown(value: object) -> str:
 
 
 def _called(one: Key) -> str:
-    path, code, rules, _, _ = one
+    path, code, rules, *_ = one
     return f"{code} of {listed(rules)} in {path}" if rules else f"{code} in {path}"
 
 

@@ -34,5 +34,5 @@ def check_target(target: Target, locate: Locate, known: KnownFindings) -> Target
     for finding in found.result.findings:
         if finding.code == UNDECIDED:
             continue
-        (found.known if known.has(finding, [target.code]) else found.findings).append(finding)
+        (found.known if known.has(found.ruleset, finding, [target.code]) else found.findings).append(finding)
     return found

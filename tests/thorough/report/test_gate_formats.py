@@ -19,7 +19,7 @@ import pytest
 from sleec_verify.report import FORMATS
 from tests.support.cli import Cli
 from tests.support.formats import VALIDATOR, commands_in
-from tests.support.gates import BOTH, CLASH, DEAD, LOST, OLD, TIMED, TIMED_ELSE, config
+from tests.support.gates import BOTH, CLASH, DEAD, LOST, OLD, TIMED, TIMED_ELSE, config, with_fingerprints
 from tests.support.paths import ROOT
 from tests.support.repository import Repository
 
@@ -183,7 +183,7 @@ def test_what_passes_and_what_is_set_aside_is_not_told(form: str, cli: Cli, repo
     repository.write(a_sleec=CLASH, a_cases_toml=BOTH)
     assert cli("gate", "--write-baseline").code == 0
     repository.keep("known.json")
-    kept = CLASH + "# sleec: allow SLEEC202 because x\nRULE c\nWHEN u THEN x\nUNLESS false\n"
+    kept = with_fingerprints(CLASH + "# sleec: allow SLEEC202@? because x\nRULE c\nWHEN u THEN x\nUNLESS false\n")
     repository.commit(a_sleec=kept)
     repository.write(a_sleec=kept + "# more\n")
     ran = cli("gate", "--base", "main", "--format", form)

@@ -12,8 +12,8 @@ from sleec_verify.changes.gate.baseline import Key, baseline_text, read_baseline
 from sleec_verify.changes.gate.keys import ConfigError
 
 KEYS: set[Key] = {
-    ("a.sleec", "SLEEC101", ("r", "s"), (("r", 0), ("s", 1)), ("Open", "NOT Close")),
-    ("b.sleec", "SLEEC201", (), (), ()),
+    ("a.sleec", "SLEEC101", ("r", "s"), (("r", 0), ("s", 1)), ("Open", "NOT Close"), "0f61c2a98b3d4e57"),
+    ("b.sleec", "SLEEC201", (), (), (), "1" * 16),
 }
 TEXT = baseline_text(KEYS)
 
@@ -47,8 +47,8 @@ def findings(text: str) -> list[str]:
 
 
 @pytest.mark.parametrize(
-    "data", [b"", b"[" * 100_000, b"\xff", b"{", b'{"version": 1}', b'{"version": 2, "findings": []}']
+    "data", [b"", b"[" * 100_000, b"\xff", b"{", b'{"version": 1}', b'{"version": 3, "findings": []}']
 )
 def test_no_baseline(data: bytes) -> None:
-    with pytest.raises(ConfigError, match=r"is not a baseline|is a baseline of version 2"):
+    with pytest.raises(ConfigError, match=r"is not a baseline|is a baseline of version 3"):
         read_baseline(data, "known.json")

@@ -22,7 +22,7 @@ from tests.support.repository import Repository
 PAGE = ROOT / "docs" / "gate.md"
 BLOCK = re.compile(r"`([\w.-]+)`:\n\n```(?:sleec|toml)\n(.*?)```\n", re.DOTALL)
 SESSION = re.compile(r"```console\n\$ sleec-verify (gate.*)\n((?:.*\n)*?)```\n")
-SUPPRESSED = re.compile(r"```sleec\n((?:(?!```).*\n)*?// sleec: allow (SLEEC\d+) because (.*)\n(?:.*\n)*?)```\n")
+SUPPRESSED = re.compile(r"```sleec\n((?:(?!```).*\n)*?// sleec: allow (SLEEC\d+)@\w+ because (.*)\n(?:.*\n)*?)```\n")
 
 pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed")
 

@@ -12,7 +12,7 @@ import pytest
 
 from sleec_verify.report import FORMATS
 from tests.support.cli import Cli
-from tests.support.gates import CLASH, LOST, OLD, config, gated, policies
+from tests.support.gates import CLASH, LOST, OLD, config, gated, policies, with_fingerprints
 from tests.support.repository import Repository
 
 pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine")
@@ -260,7 +260,7 @@ def test_file_names_are_of_any_characters(cli: Cli, repository: Repository) -> N
 
 
 def test_line_breaks_and_marks_of_editors_change_nothing(cli: Cli, repository: Repository) -> None:
-    text = "\ufeff" + OLD + "# sleec: allow SLEEC101 because the nurse decides\nRULE b\nWHEN t THEN NOT o\n"
+    text = "\ufeff" + with_fingerprints(CLASH.replace("RULE b", "# sleec: allow SLEEC101@? because fine\nRULE b"))
     (repository.folder / "a.sleec").write_bytes(text.replace("\n", "\r\n").encode())
     config(repository, block="new-suppressions = false")
     code, said = gated(cli)

@@ -9,7 +9,7 @@ import pytest
 
 from tests.support.cli import Cli
 from tests.support.gate_policies import HOUSEHOLD, NEVER, OWN, ROBOT, changes
-from tests.support.gates import CLASH, LOST, OLD, TIMED, TIMED_ELSE, gated, policies
+from tests.support.gates import CLASH, LOST, OLD, TIMED, TIMED_ELSE, gated, policies, with_fingerprints
 from tests.support.repository import Repository
 
 pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine")
@@ -90,17 +90,24 @@ def a_policy_for_what_is_unknown(repository: Repository, cli: Cli) -> None:
 
 
 def a_suppression(repository: Repository, cli: Cli) -> None:
-    repository.put("a.sleec", CLASH.replace("RULE b", "// sleec: allow SLEEC101 because fine\nRULE b"))
+    repository.put(
+        "a.sleec", with_fingerprints(CLASH.replace("RULE b", "// sleec: allow SLEEC101@? because fine\nRULE b"))
+    )
 
 
 def a_suppression_of_a_check(repository: Repository, cli: Cli) -> None:
-    repository.put("a.sleec", CLASH.replace("NOT o", "NOT o  # sleec: allow conflict because fine"))
+    repository.put(
+        "a.sleec", with_fingerprints(CLASH.replace("NOT o", "NOT o  # sleec: allow conflict@? because fine"))
+    )
 
 
 def one_more_code(repository: Repository, cli: Cli) -> None:
     repository.put("a.sleec", OLD.replace("RULE", "# sleec: allow SLEEC401 because fine\nRULE"))
     repository.keep("a.sleec")
-    repository.put("a.sleec", CLASH.replace("RULE a", "# sleec: allow SLEEC401, SLEEC101 because fine\nRULE a"))
+    repository.put(
+        "a.sleec",
+        with_fingerprints(CLASH.replace("RULE a", "# sleec: allow SLEEC401, SLEEC101@? because fine\nRULE a")),
+    )
 
 
 ATTACKS: dict[str, tuple[Attack, str, str]] = {

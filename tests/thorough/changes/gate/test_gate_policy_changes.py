@@ -10,7 +10,7 @@ from sleec_verify.changes.gate.keys import POLICIES, SETTINGS
 from sleec_verify.report import FORMATS
 from tests.support.cli import Cli
 from tests.support.gate_policies import HOUSEHOLD, OWN, ROBOT, changes
-from tests.support.gates import CLASH, DEAD, gated, policies
+from tests.support.gates import CLASH, DEAD, gated, policies, with_fingerprints
 from tests.support.repository import Repository
 
 pytestmark = pytest.mark.skipif(shutil.which("git") is None, reason="there is no git on this machine")
@@ -144,7 +144,10 @@ def everything_at_once(repository: Repository, cli: Cli, *policy: str) -> None:
     repository.put(OWN, (repository.folder / OWN).read_text() + '\nfindings = "never"\n')
     repository.put("must.txt", "never p\n")
     repository.put(
-        "a.sleec", DEAD.replace("UNLESS NOT c", "# sleec: allow dead-hedge because @all `x` | y\nUNLESS NOT c")
+        "a.sleec",
+        with_fingerprints(
+            DEAD.replace("UNLESS NOT c", "# sleec: allow dead-hedge@? because @all `x` | y\nUNLESS NOT c")
+        ),
     )
     assert cli("gate", "--write-baseline").code == 0
 
