@@ -145,6 +145,7 @@ def command(
         asserting=_asserting(sides.base, texts),
         untimed=untimed,
         touched=repository.touched(shared, beside) if beside else frozenset(),
+        files=repository.paths(shared),
     )
     for one in found.examined:
         for error in one.errors:

@@ -12,6 +12,7 @@ from sleec_verify.changes.gate.assertion_results import AssertionSources, Rulese
 from sleec_verify.changes.gate.baseline import Key, KnownFindings
 from sleec_verify.changes.gate.examination import Check, Examiner, Locate, check_ruleset, evidence, suppressions_of
 from sleec_verify.changes.gate.keys import Target
+from sleec_verify.changes.gate.lost_evidence import lost_evidence
 from sleec_verify.changes.gate.policy import judge
 from sleec_verify.changes.gate.result import (
     Block,
@@ -42,16 +43,18 @@ def gate(
     asserting: AssertionSources | None = None,
     untimed: Untimed = "at",
     touched: Set[str] = frozenset(),
+    files: Set[str] = frozenset(),
 ) -> GateResult:
     """The verdict on rulesets in two versions. Messages call the older one `base`.
 
-    `changes` are those of the settings, `known` the findings of the baseline, and `touched` the changed parts of the
-    `evidence` beside the rulesets. An unchanged ruleset is left out, unless `everything` is examined or its cases or
-    certificate changed. Assertions are checked for all rulesets. Raises `LanguageError` for invalid assertions. Linear
-    in the unchanged rulesets; the others cost as much as `check` and `diff`.
+    `changes` are those of the settings, `known` the findings of the baseline, `touched` the changed parts of the
+    `evidence` beside the rulesets, and `files` the paths of the base. An unchanged ruleset is left out, unless
+    `everything` is examined or its cases or certificate changed. Assertions are checked for all rulesets. Raises
+    `LanguageError` for invalid assertions. Linear in the unchanged rulesets; the others cost as much as `check` and
+    `diff`.
     """
     versions, before = with_renames(versions)
-    found = GateResult(base, changes=[*changes])
+    found = GateResult(base, changes=[*changes, *lost_evidence(versions, before, files, locate)])
     baseline = KnownFindings(known)
     examiner = Examiner(base, policy, baseline, check, locate, untimed)
     asked: list[RulesetVersions] = []

@@ -132,6 +132,10 @@ class Repository:
             found |= there
         return found
 
+    def paths(self, commit: str) -> set[str]:
+        """The paths of all files of a commit."""
+        return {one.name for one in entries_of_commit(self.folder, commit, ".", "-r")}
+
     def touched(self, commit: str, paths: Collection[str]) -> set[str]:
         """Those of `paths`, files or folders of the repository, that differ from a commit, or contain a difference."""
         entries = entries_of_commit(self.folder, commit, ".", "-r")

@@ -21,7 +21,8 @@ def test_cases_that_are_gone_are_a_change(cli: Cli, repository: Repository) -> N
     for now in (CASES, None):
         repository.write(a_cases_toml=now)
         code, said = gated(cli)
-        assert (code, policies(said)) == (1, {"clause-coverage"})
+        missing = {"policy-changes"} if now is None else set()
+        assert (code, policies(said)) == (1, {"clause-coverage"} | missing)
 
 
 def test_a_certificate_that_is_gone_is_a_change(cli: Cli, repository: Repository) -> None:
@@ -31,7 +32,7 @@ def test_a_certificate_that_is_gone_is_a_change(cli: Cli, repository: Repository
     assert gated(cli)[1]["unchanged"] == 1
     shutil.rmtree(repository.folder / "a.certificate")
     code, said = gated(cli)
-    assert (code, policies(said)) == (1, {"certificates"})
+    assert (code, policies(said)) == (1, {"certificates", "policy-changes"})
 
 
 def test_assertions_are_asked_of_what_is_the_same_and_nothing_else_is(cli: Cli, repository: Repository) -> None:
@@ -84,3 +85,19 @@ def test_what_is_decided_once_is_kept(
     ran = cli("gate", "--base", "main")
     assert (ran.code, ran.out) == (1, first.out)
     assert "is damaged; its results are recomputed" in ran.err
+
+
+@pytest.mark.parametrize("evidence", ["a.cases.toml", "a.certificate/manifest.json"])
+@pytest.mark.parametrize("moved", [True, False])
+def test_evidence_that_is_moved_away_is_listed(cli: Cli, repository: Repository, evidence: str, moved: bool) -> None:
+    repository.put(evidence, CASES)
+    repository.commit()
+    repository.git("mv", evidence.partition("/")[0], "elsewhere")
+    if moved:
+        repository.git("mv", "a.sleec", "b.sleec")
+    code, said = gated(cli)
+    ruleset = "b.sleec" if moved else "a.sleec"
+    assert (code, policies(said), said["blocks"][0]["where"]) == (1, {"policy-changes"}, ruleset)
+    assert f"the base has {evidence.partition('/')[0]}" in said["blocks"][0]["what"]
+    repository.git("mv", "elsewhere", ruleset.replace(".sleec", evidence.partition("/")[0][1:]))
+    assert gated(cli)[0] == 0
