@@ -45,11 +45,18 @@ def write_baseline(now: Tree, config: Config, paths: Sequence[str], file: str | 
 
 def _before(target: str) -> Set[Key]:
     """What the file holds already: only a baseline is replaced by one."""
-    if not os.path.lexists(target):
-        return frozenset()
+    return known_findings(target) if os.path.lexists(target) else frozenset()
+
+
+def known_findings(file: str) -> Set[Key]:
+    """The findings of a baseline file.
+
+    Raises:
+        SleecError: it cannot be read, or is not a baseline.
+    """
     try:
-        return read_baseline(read_file(target), target)
+        return read_baseline(read_file(file), file)
     except FileNotFoundError:
-        raise no_baseline(target) from None
+        raise no_baseline(file) from None
     except OSError as error:
-        raise SleecError(f"{target} cannot be read: {error.strerror}") from None
+        raise SleecError(f"{file} cannot be read: {error.strerror}") from None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from contextlib import nullcontext
 from typing import TYPE_CHECKING
 
@@ -24,6 +24,7 @@ from sleec_verify.wording.phrases import counted
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
+    from sleec_verify.changes.gate import Key
     from sleec_verify.cli.cache.store import Cache
     from sleec_verify.cli.progress import Progress
     from sleec_verify.encoding.scope import Scope
@@ -57,6 +58,12 @@ if TYPE_CHECKING:
 )
 @click.option("--diff", "only_show", is_flag=True, help="With --fix: show the changes, and write nothing.")
 @options.fail_level
+@click.option(
+    "--baseline",
+    metavar="FILE",
+    type=options.PATH,
+    help="A file of known findings, as `gate --write-baseline` writes it. They are notes, and do not count.",
+)
 @options.output_format(*FORMATS)
 @options.output
 @click.option(
@@ -88,6 +95,7 @@ def command(
     fix: tuple[str, ...],
     only_show: bool,
     fail_level: Severity,
+    baseline: str | None,
     form: str,
     output: str | None,
     certificate: str | None,
@@ -141,13 +149,15 @@ def command(
         if code is not None:
             return code
 
+    known = _known(baseline)
+
     def once() -> int:
         found = rulesets(paths, scope.reading, scope.domain)
         if certificate is not None and len(found) > 1:
             raise click.UsageError("--certify needs exactly one file")
         with nullcontext() if timeout is None else limited(timeout):
             required = (require_proved, require_tied)
-            outcomes = _outcomes(found, scope, realizable, fixes, cache, certificate, required)
+            outcomes = _outcomes(found, scope, realizable, fixes, cache, certificate, required, known)
         report(outcomes, form, output, language)
         if pictures is not None:
             from sleec_verify.cli.pictures import write_pictures
@@ -167,6 +177,15 @@ def command(
     return watch(paths, once)
 
 
+def _known(baseline: str | None) -> Set[Key]:
+    """The findings of a baseline. Raises `SleecError`."""
+    if baseline is None:
+        return frozenset()
+    from sleec_verify.cli.baseline import known_findings
+
+    return known_findings(baseline)
+
+
 def _hint(outcomes: Sequence[CheckedRuleset]) -> None:
     """Tell a person at a terminal what to do about the findings."""
     found = [repair for outcome in outcomes for one in outcome.repairs or () for repair in one.repairs]
@@ -184,6 +203,7 @@ def _outcomes(
     cache: Cache | None,
     certificate: str | None,
     required: tuple[bool, bool],
+    known: Set[Key],
 ) -> list[Outcome]:
     from sleec_verify.cli.progress import Progress
     from sleec_verify.encoding.trace_scope import speaks_of_traces
@@ -206,6 +226,10 @@ def _outcomes(
                         if realizable is not None:
                             # A strategy is no refutation, of which certificates speak.
                             results += _realizability(ruleset, scope, realizable, progress)
+                        if known or "sleec" in ruleset.source.text:
+                            from sleec_verify.changes.gate.allowed import with_allowed
+
+                            results = with_allowed(ruleset, results, known)
                         untimed = scope.untimed if speaks_of_traces(ruleset) else None
                         outcomes.append(CheckedRuleset(ruleset, results, untimed, repairs=repairs))
                 except InternalError as error:

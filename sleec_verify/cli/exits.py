@@ -19,12 +19,12 @@ UNKNOWN = 3
 def code(results: Iterable[CheckResult], fail_level: Severity, ignored: str = "") -> int:
     """The exit code of some results.
 
-    It depends on whether there is a finding of at least the severity `fail_level`. Findings with the code `ignored` do
-    not count.
+    It depends on whether there is a finding of at least the severity `fail_level`. Findings with the code `ignored`,
+    and allowed ones, do not count.
     """
     results = tuple(results)
     failing = SEVERITIES[: SEVERITIES.index(fail_level) + 1]
     findings = (finding for result in results for finding in result.findings)
-    if any(finding.severity in failing and finding.code != ignored for finding in findings):
+    if any(f.severity in failing and f.code != ignored and f.allowed is None for f in findings):
         return FINDINGS
     return UNKNOWN if any(isinstance(result.verdict, Unknown) for result in results) else HOLDS

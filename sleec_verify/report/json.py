@@ -57,6 +57,8 @@ def _ruleset(outcome: Outcome) -> Json:
 def _finding(finding: Finding, outcome: CheckedRuleset) -> Json:
     source = outcome.ruleset.source
     shown = finding_json(finding, finding.source or source)
+    if finding.allowed is not None:
+        shown = {**shown, "allowed": finding.allowed}
     repairs = outcome.repairs_of(finding)
     if repairs is None:
         return shown

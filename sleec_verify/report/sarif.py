@@ -107,6 +107,8 @@ def _result(outcome: CheckedRuleset, one: Located, index: Mapping[str, int]) -> 
             "domains": list(finding.domains),
         },
     }
+    if finding.allowed is not None:
+        result["suppressions"] = [{"kind": "external", "status": "accepted", "justification": finding.allowed}]
     if finding.related:
         result["relatedLocations"] = [
             {"id": number, **_location(source, span, word)} for number, (span, word) in enumerate(finding.related, 1)

@@ -50,7 +50,8 @@ class Finding:
     `span` is the main place. `related` are further places with a short text for each. They are places in `source`, or
     in the text of the rules if that is None. `timeline` is the witness of a finding about time, and `strategy` that of
     an environment that wins; `witness` is then one of its instants. `obligations` are those that contradict each other
-    or are affected. `domains` are the domains in which the finding holds, if the ruleset has domains.
+    or are affected. `domains` are the domains in which the finding holds, if the ruleset has domains. `allowed` is the
+    reason why the team accepts it, if it does.
     """
 
     check: str
@@ -69,6 +70,7 @@ class Finding:
     source: Source | None = None
     timeline: Timeline | None = None
     strategy: Strategy | None = None
+    allowed: str | None = None
 
 
 @dataclass(frozen=True)

@@ -109,7 +109,7 @@ def baseline(data: bytes, folder: Path) -> None:
 
 def baseline_seeds() -> Iterator[bytes]:
     findings = (finding for result in _results() for finding in result.findings)
-    yield baseline_text(key("fuzz.sleec", finding) for finding in findings).encode()
+    yield baseline_text(key("fuzz.sleec", RULESET, finding) for finding in findings).encode()
 
 
 def cache(data: bytes, folder: Path) -> None:
