@@ -17,11 +17,11 @@ from sleec_verify.checks.relevant_rules import kind_of, relation_in_words
 from sleec_verify.checks.untimed_conflicts import Cause, Enough, causes
 from sleec_verify.encoding.trace_scope import responses_of
 from sleec_verify.query.inconsistent_sets import InconsistentSet, InconsistentSets, opposite
-from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
+from sleec_verify.query.ruleset_index import ClausePosition, InstantIndex, RulesetIndex
 from sleec_verify.results.conflict_freedom import FreeComponent
 from sleec_verify.results.finding import ClauseRef, Finding, Witness
 from sleec_verify.results.found_trace import FoundTrace
-from sleec_verify.traces.partition import partition_of, without
+from sleec_verify.traces.partition import partition_of
 from sleec_verify.wording.phrases import clause_name, listed, quoted
 from sleec_verify.wording.sentence import joined, plural, sentence
 
@@ -34,18 +34,21 @@ if TYPE_CHECKING:
 
 def _conflicts(index: RulesetIndex) -> Iterator[Finding]:
     """A finding for each distinct conflict."""
-    traces = partition_of(index).traces
-    if traces is None:
-        yield from _of_situations(partition_of(index).situations)
+    parts = partition_of(index)
+    if parts.traces is None:
+        yield from _of_situations(index, parts.situations)
         return
+    from sleec_verify.traces.components import at_one_instant
+
+    traces = parts.traces
     found = components_over_time(index)
-    rest = without(index, (rule for component in found for rule in component.rules), ())
+    rest = at_one_instant(index, parts)
     named = [(listed(quoted(rule.label) for rule in component.rules), component) for component in found]
 
     incomplete: list[str] = []
 
     def of(component: TraceIndex | None) -> Iterator[Finding]:
-        return _of_situations(rest) if component is None else _of_traces(traces, component, incomplete)
+        return _of_situations(index, rest) if component is None else _of_traces(traces, component, incomplete)
 
     yield from ask_each([("the rules without time", None), *named], of)
     _refer_to_others(incomplete)
@@ -80,8 +83,12 @@ def _refer_to_others(incomplete: Sequence[str]) -> None:
         )
 
 
-def _of_situations(index: RulesetIndex) -> Iterator[Finding]:
-    yield from (_finding(index, cause, shown) for cause, shown in causes(index))
+def _of_situations(whole: RulesetIndex, index: InstantIndex) -> Iterator[Finding]:
+    """The conflicts of some rules at one instant, in the words of the whole ruleset."""
+    positions = dict(whole.labelled())
+    for cause, shown in causes(index):
+        places = tuple(ClausePosition(positions[index.rules[place.rule].label], place.number) for place in cause)
+        yield _finding(whole, places, shown)
 
 
 def _of_traces(whole: TraceIndex, component: TraceIndex, incomplete: list[str]) -> Iterator[Finding]:

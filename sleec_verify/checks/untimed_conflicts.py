@@ -15,7 +15,7 @@ from sleec_verify.encoding.equation import conjunction
 from sleec_verify.query.inconsistent_sets import Exclusion, InconsistentSet
 from sleec_verify.query.prime_implicates import inconsistent_sets_of
 from sleec_verify.query.question import Question
-from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
+from sleec_verify.query.ruleset_index import ClausePosition, InstantIndex, RulesetIndex
 from sleec_verify.query.witness import smallest_situation
 from sleec_verify.results.finding import Witness
 from sleec_verify.wording.phrases import listed, quoted
@@ -40,7 +40,7 @@ class Enough(Exception):
     """The maximal number of causes is found, and there may be more."""
 
 
-def causes(index: RulesetIndex) -> Iterator[tuple[Cause, list[tuple[InconsistentSet, Witness]]]]:
+def causes(index: InstantIndex) -> Iterator[tuple[Cause, list[tuple[InconsistentSet, Witness]]]]:
     """Every cause, in the order of the text, with its inconsistent set and a smallest situation.
 
     Unsatisfiable exactly if a set of clauses is not a cause: the guards of the clauses, and the situation in which

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Literal
 
-from sleec_runtime.model import Obligation, Rule, Ruleset, literals
+from sleec_runtime.model import Atom, Obligation, Rule, Ruleset, formulas_of, leaves, literals
 
 Untimed = Literal["at", "eventually"]
 """The meaning of a response without a window: at the instant of its trigger (LEGOS), or at some time from then on
@@ -18,9 +18,15 @@ def speaks_of_traces(ruleset: Ruleset) -> bool:
 
 
 def has_chains(ruleset: Ruleset) -> bool:
-    """Whether a response of some rule triggers some rule."""
-    triggers = {rule.trigger for rule in ruleset.rules}
-    return any(response.name in triggers for rule in ruleset.rules for response in responses_of(rule))
+    """Whether a response of some rule triggers some rule, or a condition of some rule names it as an event."""
+    heard = {event for rule in ruleset.rules for event in (rule.trigger, *named_atoms(rule))}
+    return any(response.name in heard for rule in ruleset.rules for response in responses_of(rule))
+
+
+def named_atoms(rule: Rule) -> Iterator[str]:
+    """The events that the conditions of a rule name."""
+    for formula in formulas_of(rule):
+        yield from (leaf.name for leaf in leaves(formula) if isinstance(leaf, Atom) and leaf.kind == "trigger")
 
 
 def responses_of(rule: Rule) -> Iterator[Obligation]:

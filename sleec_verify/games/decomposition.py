@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 from sleec_runtime.model import Atom, Formula, Rule, leaves, measures_of
 from sleec_verify.encoding.relations import Relation, events_of, formulas_of_relation
+from sleec_verify.encoding.trace_scope import named_atoms
 from sleec_verify.encoding.union_find import UnionFind
 from sleec_verify.traces.demands import Occurs
-from sleec_verify.traces.event_conditions import named_atoms
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.relations import names_of_rule
 from sleec_verify.traces.trivial_responses import cannot_be_met

@@ -17,6 +17,7 @@ from sleec_runtime.model import (
     Rule,
 )
 from sleec_verify.encoding.relations import Relation, at_one_instant, events_of, formulas_of_relation
+from sleec_verify.encoding.trace_scope import named_atoms
 from sleec_verify.games.circuit import FALSE, TRUE, Circuit
 from sleec_verify.games.decomposition import GamePart
 from sleec_verify.games.players import is_environments
@@ -24,7 +25,6 @@ from sleec_verify.games.time_grid import TimeGrid
 from sleec_verify.games.values import Scales, Values
 from sleec_verify.results.strategy import Act
 from sleec_verify.traces.demands import Demand, Every, Occurs, seconds
-from sleec_verify.traces.event_conditions import named_atoms
 from sleec_verify.traces.index import TraceIndex
 
 

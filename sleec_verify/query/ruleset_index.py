@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
-from typing import NamedTuple
+from typing import NamedTuple, NewType
 
 from sleec_runtime.model import (
+    RELATIONS,
     Assume,
     Atom,
     Clause,
@@ -162,3 +163,23 @@ class RulesetIndex(Memo):
     @cached_property
     def constrains_triggers(self) -> bool:
         return any(kind == "trigger" for constraint in self.constraints for kind, _ in names_of_constraint(constraint))
+
+
+InstantIndex = NewType("InstantIndex", RulesetIndex)
+"""The index of a ruleset that is about single instants: all responses are due at their trigger, without a window or an
+alternative, and no relation connects instants. Only such rulesets have the conflicts of Definition 1."""
+
+
+def instant_index(index: RulesetIndex) -> InstantIndex:
+    """The same index, once it is shown that its ruleset is about single instants. Linear in the ruleset.
+
+    Raises:
+        ValueError: the ruleset is about more than single instants.
+    """
+    timed = (o for clauses in index.clauses for clause in clauses for o in clause.obligations if o.timing is not None)
+    for obligation in timed:
+        raise ValueError(f"the response {obligation} has a window or an alternative")
+    for statement in index.ruleset.statements:
+        if isinstance(statement, RELATIONS):
+            raise ValueError("a relation connects instants")
+    return InstantIndex(index)

@@ -5,11 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from dataclasses import replace
+from itertools import chain, combinations
 
 from sleec_runtime.evaluation.trace import Instant, Trace
 from sleec_runtime.evaluation.trace_violations import Requirement
 from sleec_runtime.model import CLAIM_KINDS, Claim, ClaimKind, Rule, Ruleset, claims
 from sleec_verify.encoding.relations import events_of
+from sleec_verify.encoding.trace_scope import named_atoms
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.replay.trace_evaluator import RUNTIME, TraceEvaluator
 from sleec_verify.results.conflict_freedom import Example
@@ -101,7 +103,7 @@ def _is_situation(
         return False
     for label, number in clauses:
         rule = index.ruleset.by_label[label]
-        if rule.trigger in occurred and not evaluator.decides(rule, number, index.ruleset, trace):
+        if rule.trigger in occurred and not _can_decide(index, rule, number, trace, evaluator):
             return False
     before = Trace((*history, replace(now, events=frozenset())))
     about = _about(index, before)
@@ -110,6 +112,18 @@ def _is_situation(
         return False
     found = evaluator.violations_so_far(replace(about, statements=tuple(rules)), trace, index.untimed)
     return all(one.time == now.time for one in found)
+
+
+def _can_decide(index: RulesetIndex, rule: Rule, number: int, trace: Trace, evaluator: TraceEvaluator) -> bool:
+    """Whether a clause decides at some instant, with some of the acts of now that the conditions of its rule name. That
+    it does so in every response that complies with the other rules is a claim about all responses."""
+    *history, now = trace.instants
+    acts = sorted(set(named_atoms(rule)) - trace_index_of(index).mere_inputs - now.events)
+    some = chain.from_iterable(combinations(acts, size) for size in range(len(acts) + 1))
+    return any(
+        evaluator.decides(rule, number, index.ruleset, Trace((*history, replace(now, events=now.events.union(one)))))
+        for one in some
+    )
 
 
 def _is_violated_by(now: Instant, relation: Requirement) -> bool:

@@ -10,12 +10,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from sleec_runtime.model import RELATIONS, MeasureRelation, Obligation, Rule, literals, names_of
+from sleec_runtime.model import RELATIONS, Clause, MeasureRelation, Obligation, Rule, literals, names_of
 from sleec_verify.encoding.relations import Relation, events_of, formulas_of_relation
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.encoding.union_find import UnionFind
+from sleec_verify.query.ruleset_index import InstantIndex, RulesetIndex, instant_index
 from sleec_verify.traces.event_conditions import is_of_state
 from sleec_verify.traces.index import TraceIndex
+from sleec_verify.traces.partition import Partition, without
 from sleec_verify.traces.relations import names_of_rule
 from sleec_verify.traces.trivial_responses import cannot_be_met, contested_obligations
 
@@ -90,6 +92,28 @@ def _has_sides(rules: list[tuple[Rule, list[Obligation]]]) -> bool:
     return bool(required & forbidden or required & triggers or forbidden & triggers)
 
 
+def at_one_instant(index: RulesetIndex, parts: Partition) -> InstantIndex:
+    """The rules whose conflicts need one instant only: those without time, and those of components that do not need
+    traces. The latter have only the responses that can be part of a conflict."""
+    assert parts.traces is not None, "otherwise no rule needs traces"
+    instant = {}
+    for component in components(parts.traces):
+        if not needs_traces(component):
+            for rule in component.rules:
+                instant[rule.label] = _contested_part(component, parts.traces.ruleset.by_label[rule.label])
+    others = [rule for rule in parts.traces.rules if rule.label not in instant]
+    return instant_index(without(index, others, (), instant))
+
+
+def _contested_part(index: TraceIndex, rule: Rule) -> Rule:
+    """The rule without the responses that can always be met."""
+
+    def of(clause: Clause) -> Clause:
+        return replace(clause, obligations=contested_obligations(index, clause), hedges=tuple(map(of, clause.hedges)))
+
+    return replace(rule, default=of(rule.default), hedges=tuple(map(of, rule.hedges)))
+
+
 def needs_traces(component: TraceIndex) -> bool:
     """Whether a conflict of a component can need more than one instant, a chain, or a relation between events."""
     for relation in component.relations:
@@ -99,6 +123,6 @@ def needs_traces(component: TraceIndex) -> bool:
         for response in _contested(component, rule):
             if response.timing is not None or component.untimed == "eventually":
                 return True
-            if response.name in component.by_trigger:
+            if response.name in component.by_trigger or response.name in component.naming:
                 return True
     return False

@@ -8,7 +8,7 @@ situation. If there is none, the facts that no history produces are excluded.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import NamedTuple
 
@@ -16,10 +16,11 @@ from sleec_runtime.model import Rule
 from sleec_verify.encoding.budget import OutOfBudget, Undecided, as_far_as_decided, share
 from sleec_verify.encoding.solver import Refutation
 from sleec_verify.results.conflict_freedom import Example, UsedTemplate
+from sleec_verify.traces.act_conditions import Variant, variants_of, without_named_acts
 from sleec_verify.traces.complying_responses import complying_responses
 from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.cores import drop_slots, minimal_rules, weakest_facts
-from sleec_verify.traces.event_conditions import event_of, is_of_state, named_atoms
+from sleec_verify.traces.event_conditions import event_of, is_of_state
 from sleec_verify.traces.histories import Histories
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.model import TraceModel
@@ -29,7 +30,6 @@ from sleec_verify.traces.trace import TraceInstant
 from sleec_verify.traces.used_templates import PART, used_templates
 from sleec_verify.traces.witness import needed_relations, needed_values
 from sleec_verify.wording.phrases import listed, quoted
-from sleec_verify.wording.sentence import sentence
 
 MOST_UNDECIDED = 4
 """The number of undecided situations after which the search stops."""
@@ -79,8 +79,18 @@ class Conflict(NamedTuple):
 class ConflictSearch:
     """The conflicts of one component of a ruleset."""
 
-    def __init__(self, index: TraceIndex) -> None:
-        self._index = index = index.stated
+    def __init__(self, index: TraceIndex, variants: Mapping[str, Sequence[Variant]] | None = None) -> None:
+        """`variants` are those of the rules of a component from which the names of acts are gone already.
+
+        Raises:
+            Undecided: the conditions of a rule name too many acts.
+        """
+        if variants is None:
+            index = index.stated
+            variants = {rule.label: variants_of(rule) for rule in index.rules}
+            index = without_named_acts(index, variants)
+        self._index = index
+        self._variants = variants
         self._found: list[Conflict] = []
         self._undecided: list[Undecided] = []
         self._conclusions: list[tuple[Refutation, str]] = []
@@ -92,7 +102,7 @@ class ConflictSearch:
 
     @cached_property
     def _situations(self) -> Situations:
-        return Situations(self._index)
+        return Situations(self._index, self._variants)
 
     @cached_property
     def _refinement(self) -> Refinement:
@@ -103,14 +113,6 @@ class ConflictSearch:
 
         Raises `Undecided` after the last conflict that could be decided.
         """
-        named = sorted({event for rule in self._index.ruleset.rules for event in named_atoms(rule)})
-        if named:
-            raise Undecided(
-                sentence(
-                    "a condition names {event}, which is also a response; this is not supported",
-                    event=quoted(named[0]),
-                )
-            )
         try:
             while self._refinement.propose():
                 self._examine()
@@ -153,7 +155,7 @@ class ConflictSearch:
 
     def _find_hidden(self) -> None:
         """Look for the conflicts whose rules contain those of another one, but with other pairs."""
-        search = ConflictSearch(self._index)
+        search = ConflictSearch(self._index, self._variants)
         for conflict in self._found:
             search.exclude(conflict, conflict.forced)
         try:
@@ -336,7 +338,8 @@ class ConflictSearch:
         if self._index.recorder is not None:
             with as_far_as_decided(), share(PART):
                 responses += complying_responses(continuations, rules)
-        return Conflict(pairs, history, _without_states(now), stated, forced, refutation, tuple(responses))
+        shown = self._of_the_text(continuations, rules, pairs)
+        return Conflict(shown, history, _without_states(now), stated, forced, refutation, tuple(responses))
 
     def _about_past(self, core: list[Fact], slots: set[int]) -> list[Fact]:
         """The facts of a core about the past, with all facts about some slots. A relation that is not in force may be
@@ -370,8 +373,36 @@ class ConflictSearch:
                 own.update(Pair(label, n) for n, guard in enumerate(s.guards[label]) if s.holds(guard))
             # A rule that only a later instant triggers has no deciding clause yet.
             found |= own or {Pair(label, LATER)}
+        return self._in_order(found), frozenset(forced)
+
+    def _in_order(self, pairs: Iterable[Pair]) -> tuple[Pair, ...]:
         order = {label: place for place, label in enumerate(self._index.ruleset.by_label)}
-        return tuple(sorted(found, key=lambda pair: (order[pair.rule], pair.clause))), frozenset(forced)
+        return tuple(sorted(pairs, key=lambda pair: (order[pair.rule], pair.clause)))
+
+    def _of_the_text(self, continuations: Continuations, rules: list[str], pairs: Iterable[Pair]) -> tuple[Pair, ...]:
+        """The pairs with the clauses of the text. A rule whose conditions name acts has the clause that decides in
+        every response that complies with the other rules, if that is one."""
+        return self._in_order(
+            {
+                Pair(pair.rule, self._clause_in_every_response(continuations, rules, pair.rule))
+                if pair.clause != LATER and self._variants[pair.rule]
+                else pair
+                for pair in pairs
+            }
+        )
+
+    def _clause_in_every_response(self, continuations: Continuations, rules: list[str], label: str) -> int:
+        s = self._situations
+        others = [other for other in rules if other != label]
+        now = continuations.model.instants[continuations.now]
+        clauses: set[int] = set()
+        for variant, guards in zip(self._variants[label], s.variant_guards[label]):
+            acts = [now.event(act) if occurs else -now.event(act) for act, occurs in variant.acts.items()]
+            if continuations.complies(others, (), *acts):
+                clauses.update(number for number, guard in enumerate(guards) if s.holds(guard))
+                if not any(map(s.holds, guards)):
+                    return LATER
+        return clauses.pop() if len(clauses) == 1 else LATER
 
     @staticmethod
     def _is_forced(continuations: Continuations, rules: list[str], rule: Rule) -> bool:

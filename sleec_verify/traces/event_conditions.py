@@ -11,7 +11,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import replace
 
-from sleec_runtime.model import And, Atom, Effect, Formula, Not, Or, Rule, Ruleset, Span, formulas_of, leaves, names_of
+from sleec_runtime.model import And, Atom, Effect, Formula, Not, Or, Rule, Ruleset, Span, formulas_of, names_of
+from sleec_verify.encoding.trace_scope import named_atoms
 
 _BEGIN, _END = "occurs(", ")"
 
@@ -34,12 +35,6 @@ def named_events(rule: Rule) -> Iterator[str]:
             event = event_of(name)
             if event is not None:
                 yield event
-
-
-def named_atoms(rule: Rule) -> Iterator[str]:
-    """The events that the conditions of a rule name as atoms."""
-    for formula in formulas_of(rule):
-        yield from (leaf.name for leaf in leaves(formula) if isinstance(leaf, Atom) and leaf.kind == "trigger")
 
 
 def with_states(ruleset: Ruleset, events: Collection[str]) -> Ruleset:

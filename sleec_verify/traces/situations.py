@@ -9,12 +9,14 @@ This file does not decide whether a lawful history leads to the state: see `slee
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from types import MappingProxyType
 
 from sleec_runtime.model import Atom, EventRelation, Lasting, leaves
 from sleec_runtime.model import Formula as Condition
 from sleec_verify.encoding.relations import formulas_of_relation
 from sleec_verify.encoding.solver import MiniSat, Undecided
+from sleec_verify.traces.act_conditions import Variant
 from sleec_verify.traces.demands import Demand, Every, Occurs, last_second
 from sleec_verify.traces.difference import Differences
 from sleec_verify.traces.index import TraceIndex
@@ -32,7 +34,8 @@ number of seconds after node a), ``("occurred", event)`` or ``("lasts", key)``."
 class Situations:
     """The formula of all abstract states of a component."""
 
-    def __init__(self, index: TraceIndex) -> None:
+    def __init__(self, index: TraceIndex, variants: Mapping[str, Sequence[Variant]] = MappingProxyType({})) -> None:
+        """`variants` are those of the rules whose conditions named acts (`sleec_verify.traces.act_conditions`)."""
         self.index = index
         self.reading = index.ruleset.reading
         self.formula = SharedClauses()
@@ -51,6 +54,11 @@ class Situations:
         self.selected = {rule.label: self.formula.fresh() for rule in index.ruleset.rules}
         self.inputs = {event: self.formula.fresh() for event in sorted({*index.by_trigger, *index.naming})}
         self.guards = {rule.label: self.instant.guards(rule, self.reading, self.true) for rule in index.ruleset.rules}
+        self.variant_guards = {
+            label: [self.instant.guards(variant.rule, self.reading, self.true) for variant in each]
+            for label, each in variants.items()
+        }
+        """For each variant of a rule, the literals that its clauses decide now."""
         self.occurred = {
             law.left: self.formula.fresh()
             for law in index.relations
@@ -218,9 +226,11 @@ class Situations:
         if key not in self._present:
             literal = self._present[key] = self.formula.fresh()
             triggered = [] if forced else [-self.inputs[self.index.ruleset.by_label[label].trigger]]
-            self.add([-selected, *triggered, -self.guards[label][number], literal])
+            variants = self.variant_guards.get(label)
+            for guards in variants or [self.guards[label]]:
+                self.add([-selected, *triggered, -guards[number], literal])
             for slot in self.slots:
-                if (slot.rule.label, slot.pending.number) == (label, number):
+                if slot.rule.label == label and (variants or slot.pending.number == number):
                     self.add([-selected, -slot.active, literal])
         return self._present[key]
 

@@ -28,7 +28,7 @@ from sleec_verify.wording.sentence import plural, sentence
 MOST = 30
 """The maximal number of instants that are added. Published rulesets need three."""
 
-MOST_CYCLIC = 8
+MOST_CYCLIC = 12
 """The same, if a response can lead back to its trigger."""
 
 MOST_CONFLICTS_CYCLIC = 20_000

@@ -12,11 +12,11 @@ from collections.abc import Collection, Hashable
 from typing import NamedTuple
 
 from sleec_runtime.model import Assume, literals
+from sleec_verify.encoding.trace_scope import named_atoms
 from sleec_verify.encoding.union_find import UnionFind
 from sleec_verify.query.inconsistent_sets import opposite
 from sleec_verify.query.names import names_in, names_of_constraint, obligations_in
 from sleec_verify.query.ruleset_index import RulesetIndex
-from sleec_verify.traces.event_conditions import named_atoms
 from sleec_verify.traces.index import trace_index_of
 from sleec_verify.traces.partition import event_groups, partition_of
 

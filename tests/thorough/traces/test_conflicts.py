@@ -118,12 +118,6 @@ def test_a_conflict_shows_events_and_no_states_that_stand_for_them() -> None:
     assert all(not moment.conditions for moment in conflict.history)
 
 
-def test_a_condition_that_names_a_response_is_undecided() -> None:
-    found, reason = conflicts_of(dsl("A then X unless T", "X then not Y", "B then T", "T then Y"))
-    assert found == []
-    assert reason == "a condition names `T`, which is also a response; this is not supported"
-
-
 @pytest.mark.parametrize("unit", ["seconds", "minutes", "days"])
 @pytest.mark.parametrize("length", [1, 5])
 def test_a_chain_of_responses_without_end_is_refuted_by_induction(length: int, unit: str) -> None:

@@ -1,0 +1,156 @@
+"""The definition of a conflict on small rulesets: alternatives, conditions that name events, constant conditions."""
+
+from __future__ import annotations
+
+import pytest
+
+from sleec_runtime.language import parse
+from sleec_verify.checks import run_checks
+from sleec_verify.query.ruleset_index import RulesetIndex, instant_index
+from sleec_verify.results.finding import CheckResult, Unknown
+
+
+def conflict_check(text: str) -> CheckResult:
+    (result,) = run_checks(parse(text), ["conflict"])
+    assert not isinstance(result.verdict, Unknown), result.verdict.why
+    return result
+
+
+def conflicts(text: str) -> set[frozenset[str]]:
+    """The sets of rules that are in conflict."""
+    return {frozenset(finding.rules) for finding in conflict_check(text).findings}
+
+
+def english(*rules: str) -> str:
+    labelled = (f"RULE R{number} {rule}" for number, rule in enumerate((r for r in rules if r[0] == "W"), 1))
+    return "\n".join([*(rule for rule in rules if rule[0] != "W"), *labelled]) + "\n"
+
+
+def dsl(*rules: str) -> str:
+    events = "\n".join(f"event {event}" for event in "ABCDXY")
+    labelled = "\n".join(f"R{number} when {rule}" for number, rule in enumerate(rules, 1))
+    return f"def_start\n{events}\nmeasure a: boolean\ndef_end\nrule_start\n{labelled}\nrule_end\n"
+
+
+EVENTS = "".join(f"EVENT {event}\n" for event in "ABCDEX")
+R1, R2, R3 = "R1", "R2", "R3"
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        (
+            english(
+                "WHEN smoke THEN sound_alarm WITHIN 10 seconds OTHERWISE call_operator",
+                "WHEN smoke AND asleep THEN NOT sound_alarm",
+            ),
+            set(),
+        ),
+        (
+            english(
+                "WHEN smoke THEN sound_alarm WITHIN 10 seconds OTHERWISE call_operator",
+                "WHEN smoke AND asleep THEN NOT sound_alarm WITHIN 10 seconds",
+                "WHEN night THEN NOT call_operator",
+            ),
+            {frozenset({R1, R2, R3})},
+        ),
+        (english("WHEN A THEN B ELSE C", "WHEN A THEN NOT B"), set()),
+        (english("WHEN A THEN B OTHERWISE C", "WHEN A THEN NOT B"), set()),
+        (english("WHEN A THEN B ELSE C", "WHEN A THEN NOT B", "WHEN A THEN NOT C"), {frozenset({R1, R2, R3})}),
+        (english("WHEN A THEN B ELSE C", "WHEN A THEN NOT B", "WHEN D THEN E WITHIN 2 seconds"), set()),
+        (english("WHEN A THEN NOT B ELSE C", "WHEN A THEN B"), set()),
+        (english("WHEN A THEN B AND X OTHERWISE C", "WHEN A THEN NOT B"), {frozenset({R1, R2})}),
+        (dsl("A then B else C", "A then not B"), set()),
+        (dsl("A then B otherwise C", "A then not B"), set()),
+        (dsl("A then B within 10 seconds otherwise C", "A then not B"), set()),
+        (dsl("A then not B else C", "A then B", "A then not C"), {frozenset({R1, R2, R3})}),
+    ],
+)
+def test_an_alternative_has_to_be_impossible_as_well(text: str, expected: set[frozenset[str]]) -> None:
+    assert conflicts(text) == expected
+
+
+@pytest.mark.parametrize(
+    ("rules", "expected"),
+    [
+        # The robot may leave the act out.
+        (("WHEN A AND B THEN C", "WHEN A THEN NOT C", "WHEN D THEN NOT B"), set()),
+        (("WHEN A AND B THEN C", "WHEN A THEN NOT C", "WHEN D THEN B"), {frozenset({R1, R2, R3})}),
+        (("WHEN A AND B THEN C", "WHEN A THEN NOT C", "WHEN A THEN B"), {frozenset({R1, R2, R3})}),
+        (("WHEN A THEN C UNLESS B", "WHEN A THEN NOT C", "WHEN D THEN B"), set()),
+        (("WHEN A THEN C UNLESS B", "WHEN A THEN NOT C", "WHEN A THEN NOT B"), {frozenset({R1, R2, R3})}),
+        # The exception forbids the act that it needs, and the default requires it.
+        (("WHEN A THEN B UNLESS B IN WHICH CASE NOT B",), {frozenset({R1})}),
+        (("WHEN A THEN C UNLESS B AND c IN WHICH CASE NOT C", "WHEN A THEN B AND C"), {frozenset({R1, R2})}),
+        # Exceptions inside an alternative are decided at the trigger.
+        (
+            (
+                "WHEN A THEN C ELSE (D UNLESS B)",
+                "WHEN A THEN NOT C AND NOT D",
+                "WHEN E THEN B",
+            ),
+            set(),
+        ),
+        (
+            (
+                "WHEN A THEN C ELSE (D UNLESS B)",
+                "WHEN A THEN NOT C AND NOT D",
+                "WHEN A THEN NOT B",
+            ),
+            {frozenset({R1, R2, R3})},
+        ),
+    ],
+)
+def test_the_response_decides_conditions_that_name_acts(rules: tuple[str, ...], expected: set[frozenset[str]]) -> None:
+    assert conflicts(EVENTS + english(*rules)) == expected
+
+
+def test_the_clause_of_a_rule_that_names_an_act_is_that_of_every_response() -> None:
+    (finding,) = conflict_check(
+        EVENTS + english("WHEN A THEN C UNLESS B IN WHICH CASE D", "WHEN A THEN B", "WHEN A THEN NOT D")
+    ).findings
+    assert {(one.rule, one.clause) for one in finding.clauses} == {(R1, 1), (R2, 0), (R3, 0)}
+    (finding,) = conflict_check(
+        EVENTS + english("WHEN A THEN C UNLESS B IN WHICH CASE D", "WHEN A THEN NOT C AND NOT D", "WHEN E THEN B")
+    ).findings
+    assert [one.rule for one in finding.clauses] == [R2], "both clauses of R1 are possible"
+    assert finding.rules == (R1, R2)
+
+
+def test_too_many_acts_in_the_conditions_of_one_rule_are_undecided() -> None:
+    (result,) = run_checks(
+        parse(
+            EVENTS + english("WHEN A THEN X UNLESS B AND C AND D AND E", "WHEN A THEN NOT X AND B AND C AND D AND E")
+        ),
+        ["conflict"],
+    )
+    assert isinstance(result.verdict, Unknown)
+    assert "`R1` name more than 3 responses" in result.verdict.why
+
+
+@pytest.mark.parametrize("window", ["", " WITHIN 2 seconds"])
+@pytest.mark.parametrize("condition", ["t < 25 OR t >= 25", "risk >= low", "NOT (t < 25) OR t < 30"])
+def test_a_condition_that_is_always_true_has_a_witness(condition: str, window: str) -> None:
+    """Its measure needs a value in the witness, because a comparison without a value is false."""
+    text = english(
+        "MEASURE t: number",
+        "MEASURE risk: low < high",
+        f"WHEN A AND ({condition}) THEN X{window}",
+        f"WHEN A THEN NOT X{window}",
+    )
+    assert conflicts(text) == {frozenset({R1, R2})}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        english("WHEN A THEN B WITHIN 2 seconds"),
+        english("WHEN A THEN B ELSE C"),
+        english("WHEN A THEN B OTHERWISE C"),
+        english("WHEN A THEN X UNLESS c IN WHICH CASE NOT B EVENTUALLY"),
+        english("RELATION A PRECEDES B", "WHEN A THEN B"),
+    ],
+)
+def test_the_engine_for_single_instants_takes_no_window_alternative_or_relation(text: str) -> None:
+    with pytest.raises(ValueError, match=r"window or an alternative|connects instants"):
+        instant_index(RulesetIndex(parse(text)))
