@@ -16,12 +16,15 @@ from sleec_verify.cli.output import complain, tell
 from sleec_verify.cli.progress import Progress
 from sleec_verify.cli.text_diff import show_diff
 from sleec_verify.repairs.choice import chosen_repairs, combined
+from sleec_verify.repairs.hiding import hiding
+from sleec_verify.repairs.numbering import numbered_repairs
 from sleec_verify.repairs.rules_file import RulesFile
 from sleec_verify.repairs.search import RepairSearch
-from sleec_verify.repairs.simplification import simplifications
+from sleec_verify.repairs.simplification import OFFERED, offered, simplifications
 from sleec_verify.repairs.verification import is_read_otherwise
 from sleec_verify.report.outcome import CheckedRuleset, UnusableInput
 from sleec_verify.results.internal_error import internal_errors_of
+from sleec_verify.wording.phrases import listed
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
@@ -104,12 +107,16 @@ def _fix_one(
     path = ruleset.source.path
     with Progress() as progress:
         repairs = list(_repairs(ruleset, chosen, scope, cache, progress.on(path)))
+        fixed = repairs[-1].repaired if repairs else ruleset
+        left = [] if chosen else list(_left(fixed, scope, cache, progress.on(path)))
     if not repairs:
         tell(f"{path}: nothing to fix without a decision")
-        return False
-    if only_show:
-        show_diff(path, ruleset.source.text, repairs[-1].repaired.source.text)
-        return True
+    if only_show and repairs:
+        show_diff(path, ruleset.source.text, fixed.source.text)
+    if only_show or not repairs:
+        for line in left:
+            tell(f"{path}: {line}")
+        return bool(repairs)
     file = RulesFile.of(ruleset.source)
     for repair in repairs:
         file = file.edited(repair.candidate.edits)
@@ -118,7 +125,25 @@ def _fix_one(
     file.write()
     for repair in repairs:
         tell(f"{path}: fixed: {repair.candidate.title}")
+    for line in left:
+        tell(f"{path}: {line}")
     return True
+
+
+def _left(
+    ruleset: Ruleset, scope: Scope, cache: Cache | None, progress: Callable[[str, int, int], None] | None
+) -> Iterator[str]:
+    """A line for each removal that a person decides on, with what hides an exception that never applies."""
+    results = kept_or_new(ruleset, scope, cache, progress)
+    findings = [one for one in CheckedRuleset(ruleset, results).deduplicated if one.code in OFFERED]
+    searched = numbered_repairs(findings, RepairSearch(ruleset, results, scope), progress)
+    for finding, removal in offered(ruleset, results, searched):
+        names = hiding(ruleset, finding, scope)
+        reason = f"{listed(names)} {'hides' if len(names) == 1 else 'hide'} it" if names else finding.note
+        yield (
+            f"not fixed: {finding.message}{f'; {reason}' if reason else ''}; "
+            f"--fix {removal.identifier} would {removal.repair.candidate.title}"
+        )
 
 
 def _repairs(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import replace
+from fractions import Fraction
 
 from sleec_runtime.errors import SleecError, Unsayable
 from sleec_runtime.model import Reading, Ruleset, Statement
@@ -38,12 +39,13 @@ class RepairSearch:
     def __init__(self, ruleset: Ruleset, results: Sequence[CheckResult], scope: Scope = WHOLE) -> None:
         self._ruleset = ruleset
         self._scope = scope
+        self._results = results
         self._verification = Verification(ruleset, results, scope)
         self.undecided: str | None = None
         """Why the last search of repairs may not have found all, if it may not."""
 
     def repairs(self, finding: Finding) -> list[Repair]:
-        """The repairs, those that change the fewest situations first, and of these the shortest edits."""
+        """The repairs, those that take away the least first (`_order`)."""
         self.undecided = None
         found: dict[tuple[Reading, tuple[Statement, ...]], Repair] = {}
         for operator, candidate in self._proposed(self._ruleset, finding):
@@ -51,12 +53,12 @@ class RepairSearch:
                 repair = self._repair(finding, operator, candidate)
                 if repair is not None:
                     found.setdefault((repair.repaired.reading, repair.repaired.statements), repair)
-        return sorted(found.values(), key=_size)
+        return sorted(found.values(), key=_order)
 
     def verified(self, finding: Finding, candidate: Candidate) -> Repair:
         """The candidate with its effect. Raises `Rejected` if it is not a repair of the finding."""
-        repaired = self._verification.repaired(finding, candidate)
-        effect = effect_of(self._ruleset, repaired, self._scope)
+        repaired, results = self._verification.repaired(finding, candidate)
+        effect = effect_of(finding, self._ruleset, repaired, self._scope, self._results, results)
         return Repair(finding, candidate, effect, repaired)
 
     def candidates(self, finding: Finding) -> list[Candidate]:
@@ -169,7 +171,18 @@ def _keeps_comments(ruleset: Ruleset, candidate: Candidate) -> bool:
     return not loses_comment(text, rest, ruleset.syntax)
 
 
-def _size(repair: Repair) -> tuple[bool, int, int, str]:
-    situations = repair.effect.situations
+def _order(repair: Repair) -> tuple[bool, bool, Fraction, bool, bool, int, int, str]:
+    """By harm: first what leaves no contradiction in the situation of the conflict, then what takes away least, and of
+    these what keeps constraints, assumptions and statements, changes fewest situations and is shortest."""
+    effect = repair.effect
     length = sum(len(edit.text) + edit.end - edit.start for edit in repair.candidate.edits)
-    return situations is None, situations or 0, length, repair.candidate.title
+    return (
+        effect.after_conflict is not None and effect.after_conflict.is_conflict,
+        effect.harm is None,
+        effect.harm or Fraction(0),
+        bool(effect.difference.constraints or effect.difference.situations),
+        repair.candidate.operator in _REMOVE,
+        effect.situations or 0,
+        length,
+        repair.candidate.title,
+    )

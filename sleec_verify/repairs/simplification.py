@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
-from sleec_runtime.model import Ruleset
+from sleec_runtime.model import Ruleset, literals
 from sleec_verify.checks import run_checks
 from sleec_verify.checks.misread_names import MISREAD_NAME
 from sleec_verify.encoding.scope import WHOLE, Scope
+from sleec_verify.repairs.numbering import FindingRepairs, NumberedRepair
 from sleec_verify.repairs.operators import REMOVALS
 from sleec_verify.repairs.repair import Repair
 from sleec_verify.repairs.search import RepairSearch
@@ -16,7 +17,13 @@ from sleec_verify.results.finding import CheckResult, Finding
 from sleec_verify.results.suppressions import suppressions
 
 _CODES = frozenset((*REMOVALS, "SLEEC507", "SLEEC508", "SLEEC513"))
-"""The findings that are repaired without a question, if the repair keeps the meaning."""
+"""The findings that are repaired without a question, if the repair keeps the meaning and the text still asks for the
+same."""
+
+OFFERED = frozenset(REMOVALS)
+"""The findings whose repairs a person decides on, if the text would no longer ask for something."""
+
+_REMOVALS = ("rule-removal", "defeater-removal")
 
 _ONE_NAME = "SLEEC525"
 """A variant by an article, case or number is a slip, because an author who means two names declares both. In the DSL,
@@ -49,6 +56,23 @@ def simplifications(ruleset: Ruleset, results: Sequence[CheckResult], scope: Sco
         results = run_checks(ruleset, None, scope.domain, untimed=scope.untimed, chains=scope.chains)
 
 
+def offered(
+    ruleset: Ruleset, results: Sequence[CheckResult], searched: Iterable[FindingRepairs]
+) -> Iterator[tuple[Finding, NumberedRepair]]:
+    """The removals of what has no effect that a person decides on, because the text would no longer ask for something.
+
+    `searched` are findings with codes that are `OFFERED`, and their repairs. A finding that a comment allows is none.
+    """
+    findings = _open(ruleset, [finding for result in results for finding in result.findings])
+    places = {(finding.code, finding.span) for finding in findings}
+    for found in searched:
+        removals = (one for one in found.repairs if one.repair.candidate.operator in _REMOVALS)
+        removal = next(removals, None)
+        is_open = (found.finding.code, found.finding.span) in places
+        if removal is not None and is_open and not _asks_for_the_same(removal.repair):
+            yield found.finding, removal
+
+
 def _open(ruleset: Ruleset, findings: Sequence[Finding]) -> list[Finding]:
     """The findings without those that a comment allows, at their place or in any line of their rule. A rule that may
     stay without effect is not removed for the sake of another finding."""
@@ -76,4 +100,18 @@ def _declared(ruleset: Ruleset) -> frozenset[str]:
 def _needs_no_decision(repair: Repair, needed: frozenset[str]) -> bool:
     if repair.finding.code == _ONE_NAME:
         return repair.repaired.syntax != "dsl"
-    return repair.effect.keeps_meaning and needed <= _declared(repair.repaired)
+    return (
+        repair.effect.keeps_meaning
+        and needed <= _declared(repair.repaired)
+        and (repair.finding.code not in OFFERED or _asks_for_the_same(repair))
+    )
+
+
+def _asks_for_the_same(repair: Repair) -> bool:
+    """Whether no rule is removed, and each rule still names every literal that it obliged, in some clause.
+
+    What has no effect may be a mistake: an exception that never applies, or a rule that another one makes redundant.
+    """
+    after = [{o for clause in rule.clauses() for o in literals(clause)} for rule in repair.repaired.rules]
+    before = [{o for clause in rule.clauses() for o in literals(clause)} for rule in repair.effect.difference.old.rules]
+    return len(before) == len(after) and all(one <= other for one, other in zip(before, after))

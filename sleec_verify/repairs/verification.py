@@ -58,8 +58,9 @@ class Verification:
         self._unknown = {result.name for result in results if isinstance(result.verdict, Unknown)}
         self._found = Counter(_identity(ruleset, f) for result in results for f in result.findings)
 
-    def repaired(self, finding: Finding, candidate: Candidate) -> Ruleset:
-        """The rules after the change, if the checks show that `finding` is gone and that no other appeared.
+    def repaired(self, finding: Finding, candidate: Candidate) -> tuple[Ruleset, tuple[CheckResult, ...]]:
+        """The rules after the change, and the results of their checks, if these show that `finding` is gone and that no
+        other appeared.
 
         A check that decided before must decide again. Costs at most one check of the ruleset.
 
@@ -104,8 +105,10 @@ class Verification:
         others = [name for name in self._names if name not in (finding.check, *settled)]
         cheap = [name for name in others if name not in COSTLY]
         own = [name for name in (finding.check,) if name not in settled]
+        found: list[CheckResult] = []
         for names in (cheap, own, [name for name in others if name in COSTLY]):
             for result in checking.results(names):
+                found.append(result)
                 if isinstance(result.verdict, Unknown) and result.name not in self._unknown:
                     why = sentence(
                         "the check {check} of the changed text is unknown: {why}",
@@ -116,7 +119,7 @@ class Verification:
                 more = Counter(places.identity(one) for one in result.findings) - allowed
                 for one in result.findings:
                     examine(one, more)
-        return new
+        return new, tuple(found)
 
     def _checking(self, ruleset: Ruleset, examine: Callable[[Finding], None] | None = None) -> Checking:
         scope = self._scope

@@ -74,7 +74,7 @@ def rule_text(change: Change) -> str:
     return new if old == new else sentence("{rule} (was {old})", rule=new, old=old)
 
 
-def effect_text(change: Change) -> str:
+def effect_text(change: Change, lost_first: bool = False) -> str:
     """```OpenCurtains` is no longer required, `WarnUser` is now required and `LeaveRoom` is now forbidden``"""
     parts = []
     moved = [o for o in (*change.added, *change.removed) if _other_time(change, o) is not None]
@@ -82,11 +82,12 @@ def effect_text(change: Change) -> str:
         times = _when(o), _when(_other_time(change, o) or o)
         now, before = times if o in change.added else times[::-1]
         parts.append(_other_window(o, now, before))
-    for literals, is_added in ((change.added, True), (change.removed, False)):
+    ways = ((change.added, True), (change.removed, False))
+    for literals, is_added in ways[::-1] if lost_first else ways:
         for negated in (False, True):
             names = [_phrase(o) for o in literals if o.negated == negated and o not in moved]
             if names:
-                parts.append(_role(len(names), listed(names), is_added, negated))
+                parts.append(role_text(len(names), listed(names), is_added, negated))
     # A change that is both a gain and a loss has the same words twice.
     return listed(dict.fromkeys(parts))
 
@@ -98,7 +99,8 @@ def _other_window(obligation: Obligation, now: str, before: str) -> str:
     return sentence("{name} is now required {now} (before: {before})", name=name, now=now, before=before)
 
 
-def _role(number: int, names: str, is_added: bool, negated: bool) -> str:
+def role_text(number: int, names: str, is_added: bool, negated: bool) -> str:
+    """```OpenCurtains` is no longer required``; `number` is that of the names."""
     if is_added and negated:
         return plural(number, "{names} is now forbidden", "{names} are now forbidden", names=names)
     if is_added:

@@ -153,7 +153,7 @@ def contexts(ruleset: Ruleset) -> Iterator[Context]:
     measures = sorted(ruleset.measures)
     for occur in product((False, True), repeat=len(triggers)):
         for true in product((False, True), repeat=len(conditions)):
-            for values in product(*(_values(ruleset, name) for name in measures)):
+            for values in product(*(values_of(ruleset, name) for name in measures)):
                 context = Context(
                     frozenset(name for name, yes in zip(triggers, occur) if yes),
                     {**dict(zip(conditions, true)), **dict(zip(measures, values))},
@@ -166,7 +166,7 @@ def contexts(ruleset: Ruleset) -> Iterator[Context]:
                     yield context
 
 
-def _values(ruleset: Ruleset, name: str) -> Sequence[Value]:
+def values_of(ruleset: Ruleset, name: str) -> Sequence[Value]:
     measure = ruleset.measures[name]
     if measure.kind == "scale":
         return list(measure.values)

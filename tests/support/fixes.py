@@ -15,7 +15,7 @@ UNLESS UserUndressed IN WHICH CASE NOT OpenCurtains
 RULE air
 WHEN CurtainsRequested AND RoomStuffy THEN OpenCurtains AND OpenWindow
 """
-DEAD = "UNLESS Night AND NOT Night IN WHICH CASE Wait\n"
+DEAD = "UNLESS Night AND NOT Night\n"
 TWO = f"{CONFLICT}RULE quiet\nWHEN Bell THEN NOT Speak\nRULE call\nWHEN Bell AND Storm THEN Speak\n"
 SHORTER = "remove `OpenCurtains` from rule `air`"
 """The title of a repair of `CONFLICT`."""

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import product
 
 from sleec_runtime.language import parse
-from sleec_runtime.model import Assume, Rule, Ruleset, Statement
+from sleec_runtime.model import Assume, Context, Exclusive, Never, Rule, Ruleset, Statement
 from sleec_verify.checks import run_checks
 from sleec_verify.repairs.edit import edited
 from sleec_verify.repairs.repair import Repair
@@ -69,11 +70,25 @@ def texts_after(text: str, repairs: Sequence[Repair]) -> list[str]:
 
 
 def differing(old: Ruleset, new: Ruleset) -> int:
-    """The situations without a conflict in which the rules oblige something else, as the first rules name them, and
-    those that an assumption excludes."""
+    """The situations in which the rules oblige something else, or constraints exclude something else, as the first
+    rules name them, and those that an assumption excludes."""
     assumed = [one for one in new.constraints if isinstance(one, Assume) and one not in old.constraints]
     return sum(
         not all(brute_force.value(one.formula, context, measures=new.measures) for one in assumed)
-        or (brute_force.due(old, context) != brute_force.due(new, context) and not brute_force.conflicts(old, context))
+        or brute_force.due(old, context) != brute_force.due(new, context)
+        or any(broken(old, context, done) != broken(new, context, done) for done in choices(old))
         for context in brute_force.contexts(old)
     )
+
+
+def choices(ruleset: Ruleset) -> Iterator[frozenset[str]]:
+    """Every choice of the obligations."""
+    names = sorted(ruleset.obligations)
+    for chosen in product((False, True), repeat=len(names)):
+        yield frozenset(name for name, yes in zip(names, chosen) if yes)
+
+
+def broken(ruleset: Ruleset, context: Context, done: frozenset[str]) -> bool:
+    """Whether the obligations that are done break a constraint."""
+    forbidding = (one for one in ruleset.constraints if isinstance(one, (Exclusive, Never)))
+    return not all(brute_force.is_satisfied(one, ruleset, context, done) for one in forbidding)

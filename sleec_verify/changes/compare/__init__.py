@@ -12,6 +12,7 @@ from sleec_verify.changes.compare.differences import compare
 from sleec_verify.changes.compare.result import (
     Change,
     ConflictChange,
+    ConstraintChange,
     DecidingClause,
     Difference,
     Extent,
@@ -27,6 +28,7 @@ from sleec_verify.changes.compare.result import (
 __all__ = [
     "Change",
     "ConflictChange",
+    "ConstraintChange",
     "DecidingClause",
     "Difference",
     "Extent",

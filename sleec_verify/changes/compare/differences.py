@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import chain
-from typing import TypeVar, Union
+from typing import NamedTuple, TypeVar, Union
 
 from sleec_runtime.model import Formula, Never, Ruleset, formulas_of
 from sleec_verify.changes.compare.comparison import SIDES, Comparison, SideName, other
 from sleec_verify.changes.compare.conflicts import conflict_changes
+from sleec_verify.changes.compare.constraints import constraint_changes
 from sleec_verify.changes.compare.inferred_kinds import with_kinds_of
 from sleec_verify.changes.compare.obligations import changes
 from sleec_verify.changes.compare.result import (
     Change,
     ConflictChange,
+    ConstraintChange,
     Difference,
     SituationChange,
     TimedConflictChange,
@@ -31,25 +33,39 @@ from sleec_verify.query.question import is_possible
 from sleec_verify.wording.phrases import quoted
 from sleec_verify.wording.sentence import sentence
 
-_Told = TypeVar("_Told", Change, ConflictChange, SituationChange, TimedConflictChange)
-_Any = Union[Change, ConflictChange, SituationChange, TimedConflictChange, Undecidable, str]
+_Told = TypeVar("_Told", Change, ConflictChange, SituationChange, ConstraintChange, TimedConflictChange)
+_Any = Union[Change, ConflictChange, SituationChange, ConstraintChange, TimedConflictChange, Undecidable, str]
+
+
+class _Wanted(NamedTuple):
+    """What is compared, as the parameters of `compare` say."""
+
+    over_time: bool
+    in_conflicts: bool
 
 
 def compare(
-    old: Ruleset, new: Ruleset, domain: str | None = None, untimed: Untimed = "at", over_time: bool = True
+    old: Ruleset,
+    new: Ruleset,
+    domain: str | None = None,
+    untimed: Untimed = "at",
+    over_time: bool = True,
+    in_conflicts: bool = False,
 ) -> Difference:
     """The differences in meaning between `old` and `new`, in each domain of either, or only in `domain`.
 
     Each ruleset is read in its own reading. `untimed` is the meaning of a response without a window in rules with time.
     The result is complete and exact, except for `Difference.undecided`. O(size of the rules) for equal rules. Each
     other rule needs questions about the rules of its trigger (satisfiability, NP-hard and small), and a count that
-    stops at the limits of `changes.diagram`. Without `over_time`, conflicts of several instants are not compared.
+    stops at the limits of `changes.diagram`. Without `over_time`, conflicts of several instants are not compared. With
+    `in_conflicts`, a literal counts as due if a rule obliges it, also in situations with a conflict; constraints are
+    compared, and conflicts are not.
     """
     with for_file(len(old.source.text) + len(new.source.text)):
-        return _difference(old, new, domain, untimed, over_time)
+        return _difference(old, new, domain, untimed, _Wanted(over_time, in_conflicts))
 
 
-def _difference(old: Ruleset, new: Ruleset, domain: str | None, untimed: Untimed, over_time: bool) -> Difference:
+def _difference(old: Ruleset, new: Ruleset, domain: str | None, untimed: Untimed, wanted: _Wanted) -> Difference:
     old, new = with_kinds_of(old, new), with_kinds_of(new, old)
     whole = Comparison(old, new, untimed)
     shared = Difference(
@@ -71,24 +87,23 @@ def _difference(old: Ruleset, new: Ruleset, domain: str | None, untimed: Untimed
     else:
         domains = tuple(dict.fromkeys((*old.domains, *new.domains)))
     if domains:
-        found = [
-            _compared(Comparison(old.in_domain(one), new.in_domain(one), untimed), one, over_time) for one in domains
-        ]
+        found = [_compared(Comparison(old.in_domain(one), new.in_domain(one), untimed), one, wanted) for one in domains]
     else:
-        found = [_compared(whole, None, over_time)]
+        found = [_compared(whole, None, wanted)]
     flat = [one for each in found for one in each]
     difference = shared._replace(
         changes=_merged([one for one in flat if isinstance(one, Change)]),
         conflicts=_merged([one for one in flat if isinstance(one, ConflictChange)]),
         timed_conflicts=_merged([one for one in flat if isinstance(one, TimedConflictChange)]),
         situations=_merged([one for one in flat if isinstance(one, SituationChange)]),
+        constraints=_merged([one for one in flat if isinstance(one, ConstraintChange)]),
         undecided=tuple(dict.fromkeys((*shared.undecided, *(one for one in flat if isinstance(one, Undecidable))))),
     )
     limits = tuple(dict.fromkeys(one for one in flat if isinstance(one, str)))
     return difference._replace(notes=(*difference.notes, *limits), rewritten=_rewritten(whole, difference))
 
 
-def _compared(comparison: Comparison, domain: str | None, over_time: bool) -> list[_Any]:
+def _compared(comparison: Comparison, domain: str | None, wanted: _Wanted) -> list[_Any]:
     clashes = [*comparison.vocabulary.clashes, *_conditions_that_are_measures(comparison)]
     if clashes:
         return [*clashes]
@@ -96,9 +111,12 @@ def _compared(comparison: Comparison, domain: str | None, over_time: bool) -> li
     try:
         found += situation_changes(comparison)
         if is_possible(comparison.index):
-            found += conflict_changes(comparison)
-            found += changes(comparison)
-            if over_time:
+            if wanted.in_conflicts:
+                found += constraint_changes(comparison)
+            else:
+                found += conflict_changes(comparison)
+            found += changes(comparison, wanted.in_conflicts)
+            if wanted.over_time:
                 found = _with_conflicts_over_time(found, TimedConflicts(comparison))
         elif all(is_possible(comparison.situations_of(which)) for which in comparison.sides):
             why = sentence("no situation is allowed by the assumptions of both versions")

@@ -45,8 +45,9 @@ class _Group(NamedTuple):
 Found = Union[Change, Undecidable]
 
 
-def changes(comparison: Comparison) -> Iterator[Found]:
-    """For each rule that differs between the sides, its changes.
+def changes(comparison: Comparison, in_conflicts: bool = False) -> Iterator[Found]:
+    """For each rule that differs between the sides, its changes; also in situations in which a side conflicts, if
+    `in_conflicts`.
 
     Complete: if a literal is due on one side only, some clause of this side obliges it there, and its rule differs.
     Exact: each change has a replayed situation.
@@ -54,12 +55,14 @@ def changes(comparison: Comparison) -> Iterator[Found]:
     for pair, places in comparison.changed:
         label = next(rule.label for rule in (pair.new, pair.old) if rule is not None)
         try:
-            yield from _of_pair(comparison, pair, places)
+            yield from _of_pair(comparison, pair, places, in_conflicts)
         except Undecided as error:
             yield Undecidable(label, error.message)
 
 
-def _of_pair(comparison: Comparison, pair: RulePair, places: dict[SideName, int]) -> Iterator[Found]:
+def _of_pair(
+    comparison: Comparison, pair: RulePair, places: dict[SideName, int], in_conflicts: bool
+) -> Iterator[Found]:
     rules = [rule for rule in pair if rule is not None]
     triggers = {rule.trigger for rule in rules}
     cone = comparison.cone(triggers)
@@ -78,7 +81,7 @@ def _of_pair(comparison: Comparison, pair: RulePair, places: dict[SideName, int]
             )
     if not found:
         return
-    conflicts = [comparison.conflict(rows, which) for which in SIDES]
+    conflicts = [] if in_conflicts else [comparison.conflict(rows, which) for which in SIDES]
     try:
         groups = _grouped(comparison, pair, found, conflicts, triggers, cone)
     except TooLarge as error:
@@ -91,7 +94,7 @@ def _of_pair(comparison: Comparison, pair: RulePair, places: dict[SideName, int]
             # Only without a diagram, which finds unsatisfiable formulas itself.
             assert group.extent.affected is None, "a solver and a diagram disagree"
             continue
-        yield _change(comparison, pair, group, witness)
+        yield _change(comparison, pair, group, witness, in_conflicts)
 
 
 def _grouped(
@@ -122,12 +125,12 @@ def _grouped(
     return groups
 
 
-def _change(comparison: Comparison, pair: RulePair, group: _Group, witness: Witness) -> Change:
+def _change(comparison: Comparison, pair: RulePair, group: _Group, witness: Witness, in_conflicts: bool) -> Change:
     added = tuple(one.literal for one in group.members if one.which == "new")
     removed = tuple(one.literal for one in group.members if one.which == "old")
     context = witness.context()
     said = {which: deciding(comparison, which, context) for which in SIDES}
-    if not shows_change(comparison, context, said, added, removed):
+    if not shows_change(comparison, context, said, added, removed, in_conflicts):
         raise Undecided(sentence("the replay rejected a situation; this is a bug in sleec-verify"))
     labels = [None if rule is None else rule.label for rule in pair]
     return Change(labels[0], labels[1], added, removed, witness, said["old"], said["new"], group.extent)

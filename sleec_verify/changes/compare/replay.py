@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import product
 
-from sleec_runtime.evaluation.conflicts import has_conflict
+from sleec_runtime.evaluation.conflicts import has_conflict, mentioned
 from sleec_runtime.evaluation.formula_truth import Situation, holds
 from sleec_runtime.evaluation.hedge_chain import decide
 from sleec_runtime.model import Context, Exclusive, Formula, Never, Obligation
 from sleec_verify.changes.compare.alternatives import responses_in_situation
-from sleec_verify.changes.compare.comparison import SIDES, Comparison, SideName, triggered_rules
+from sleec_verify.changes.compare.comparison import SIDES, Comparison, SideName, other, triggered_rules
 from sleec_verify.changes.compare.measured_windows import in_context
 from sleec_verify.changes.compare.result import DecidingClause
 from sleec_verify.changes.compare.sides import Assumption
@@ -69,11 +70,13 @@ def shows_change(
     said: dict[SideName, tuple[DecidingClause, ...]],
     added: Sequence[Obligation],
     removed: Sequence[Obligation],
+    in_conflicts: bool,
 ) -> bool:
-    """Whether both sides allow the situation, neither conflicts in it, and the due literals differ as claimed."""
+    """Whether both sides allow the situation, and the due literals differ as claimed; and unless `in_conflicts`,
+    whether neither side conflicts in it."""
     if not all(possible(comparison, which, context) for which in SIDES):
         return False
-    if any(conflicts(comparison, which, context, said[which]) for which in SIDES):
+    if not in_conflicts and any(conflicts(comparison, which, context, said[which]) for which in SIDES):
         return False
 
     def due(which: SideName, literal: Obligation) -> bool:
@@ -82,6 +85,31 @@ def shows_change(
     return all(due("new", o) and not due("old", o) for o in added) and all(
         due("old", o) and not due("new", o) for o in removed
     )
+
+
+def excluded_on_one_side(
+    comparison: Comparison, which: SideName, constraint: Exclusive | Never, names: Sequence[str], context: Context
+) -> bool:
+    """Whether both sides allow the situation, and some choice of the obligations `names` breaks the constraint of one
+    side there, and none of the constraints of the other side about them."""
+    if not all(possible(comparison, side, context) for side in SIDES):
+        return False
+    situation = Situation(context, comparison.sides[which].stated.measures)
+    theirs = Situation(context, comparison.sides[other(which)].stated.measures)
+    against = [
+        one
+        for one in comparison.sides[other(which)].stated.constraints
+        if isinstance(one, (Exclusive, Never)) and mentioned(one) & set(names)
+    ]
+    choices = ([Obligation(name, not yes) for name, yes in zip(names, values)] for values in _choices(len(names)))
+    return any(
+        has_conflict(choice, [constraint], situation) and not has_conflict(choice, against, theirs)
+        for choice in choices
+    )
+
+
+def _choices(number: int) -> Iterable[tuple[bool, ...]]:
+    return product((False, True), repeat=number)
 
 
 def satisfies(comparison: Comparison, which: SideName, given: Assumption, context: Context) -> bool:

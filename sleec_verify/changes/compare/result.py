@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 if TYPE_CHECKING:
-    from sleec_runtime.model import Obligation, Ruleset, Span
+    from sleec_runtime.model import Exclusive, Never, Obligation, Ruleset, Span
     from sleec_verify.changes.diagram.variables import Variable
     from sleec_verify.results.finding import Finding, Witness
 
@@ -104,6 +104,16 @@ class SituationChange(NamedTuple):
     domains: tuple[str, ...] = ()
 
 
+class ConstraintChange(NamedTuple):
+    """Situations in which a constraint of one side excludes what the other side allows: of the new side if `way` is
+    added."""
+
+    way: Way
+    constraint: Exclusive | Never
+    extent: Extent
+    domains: tuple[str, ...] = ()
+
+
 class NameChange(NamedTuple):
     """A name that only one side uses as this kind: the new side if `way` is added."""
 
@@ -124,6 +134,7 @@ class Difference(NamedTuple):
 
     `renamed` are the labels of rules that differ only in their labels, and `rewritten` those of rules with another text
     and the same meaning. `same` is the number of equal rules. `notes` says what is left out of the comparison, and why.
+    `constraints` are compared only if situations with a conflict are compared, too.
     """
 
     old: Ruleset
@@ -139,16 +150,22 @@ class Difference(NamedTuple):
     reordered: bool = False
     same: int = 0
     notes: tuple[str, ...] = ()
+    constraints: tuple[ConstraintChange, ...] = ()
 
     @property
     def more(self) -> bool:
         """Whether the new rules oblige more in some situation, or allow situations that the old ones exclude."""
-        return any(c.added for c in self.changes) or any(s.way == "added" for s in self.situations)
+        return any(c.added for c in self.changes) or "added" in self._ways
 
     @property
     def less(self) -> bool:
         """Whether they oblige less in some situation, or exclude situations."""
-        return any(c.removed for c in self.changes) or any(s.way == "removed" for s in self.situations)
+        return any(c.removed for c in self.changes) or "removed" in self._ways
+
+    @property
+    def _ways(self) -> frozenset[Way]:
+        """How situations and constraints change."""
+        return frozenset([*(one.way for one in self.situations), *(one.way for one in self.constraints)])
 
     @property
     def all_conflicts(self) -> list[ConflictChange | TimedConflictChange]:

@@ -32,7 +32,7 @@ def test_several_repairs_at_once(cli: Cli) -> None:
 
 
 def test_fix_alone_applies_what_changes_no_meaning(cli: Cli, tmp_path: Path) -> None:
-    text = f"{TWO}{DEAD}RULE again\nWHEN Bell AND Storm THEN Speak\n"
+    text = f"{TWO}{DEAD}UNLESS Rain IN WHICH CASE Speak\n"
     ran = cli("check", "--fix", "a.sleec", files={"a.sleec": text})
     assert ran.code == 1
     assert "SLEEC101" in ran.out
@@ -41,10 +41,68 @@ def test_fix_alone_applies_what_changes_no_meaning(cli: Cli, tmp_path: Path) -> 
     assert len(ran.err.splitlines()) == 2
 
 
-def test_one_of_two_equal_rules_stays(cli: Cli, tmp_path: Path) -> None:
+FALL = "WHEN the user falls THEN call the nurse"
+HIDDEN = f"""\
+READING cascade
+RULE help
+{FALL}
+UNLESS asleep IN WHICH CASE wake the user
+UNLESS NOT asleep IN WHICH CASE call the nurse AND play an alarm
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "lines"),
+    [
+        (
+            HIDDEN,
+            [
+                (
+                    "not fixed: the exception `UNLESS NOT asleep` of rule `help` never applies; the exception "
+                    "`UNLESS asleep` hides it; --fix SLEEC202:1 would remove the exception `UNLESS NOT asleep` of rule "
+                    "`help`"
+                )
+            ],
+        ),
+        (
+            f"ASSUME NOT (the user falls AND asleep)\nRULE help\n{FALL}\nUNLESS asleep IN WHICH CASE wake the user\n",
+            [
+                (
+                    "not fixed: the exception `UNLESS asleep` of rule `help` never applies; "
+                    "`ASSUME NOT (the user falls AND asleep)` hides it; --fix SLEEC202:1 would remove the exception "
+                    "`UNLESS asleep` of rule `help`"
+                )
+            ],
+        ),
+        (
+            f"RULE help\n{FALL}\nRULE alone\n{FALL.replace('falls', 'falls AND alone')}\n",
+            [
+                (
+                    "not fixed: rule `alone` can be removed: every situation requires the same without it; "
+                    "`help` requires the same; --fix SLEEC301:1 would remove rule `alone`"
+                )
+            ],
+        ),
+    ],
+)
+def test_what_asks_for_something_is_never_removed_alone(text: str, lines: list[str], cli: Cli, tmp_path: Path) -> None:
+    ran = cli("check", "--fix", "a.sleec", files={"a.sleec": text})
+    assert (tmp_path / "a.sleec").read_text() == text
+    assert ran.err.splitlines() == ["a.sleec: nothing to fix without a decision", *(f"a.sleec: {one}" for one in lines)]
+    applied = cli("check", "--fix", lines[0].partition("--fix ")[2].split()[0], "a.sleec")
+    assert applied.code == 0
+    assert "never applies" not in applied.out
+
+
+def test_equal_rules_are_offered_one_by_one(cli: Cli, tmp_path: Path) -> None:
     text = "RULE a\nWHEN Bell THEN Speak\nRULE b\nWHEN Bell AND Storm THEN Speak\nRULE c\nWHEN Bell THEN Speak\n"
-    assert cli("check", "--fix", "a.sleec", files={"a.sleec": text}).code == 0
-    assert (tmp_path / "a.sleec").read_text() == "RULE a\nWHEN Bell THEN Speak\n"
+    ran = cli("check", "--fix", "a.sleec", files={"a.sleec": text})
+    assert (tmp_path / "a.sleec").read_text() == text
+    assert {line.partition("would ")[2] for line in ran.err.splitlines()[1:]} == {
+        "remove rule `a`",
+        "remove rule `b`",
+        "remove rule `c`",
+    }
 
 
 def test_fix_alone_stops_when_nothing_is_left(cli: Cli, tmp_path: Path) -> None:

@@ -48,7 +48,11 @@ def test_each_conflict_is_resolved_and_recorded(answer: Answer, tmp_path: Path) 
 def test_the_situation_and_the_effects_are_shown(answer: Answer) -> None:
     shown = answer("quit").output
     assert "situation: When `CurtainsRequested` occurs, `RoomStuffy` is true and `UserUndressed` is true" in shown
-    effect = "in the situation of the conflict, the rules then require `NOT OpenCurtains`; nothing else changes"
+    effect = (
+        "rule `air`, in 1 of 4 situations in which `CurtainsRequested` occurs: `OpenCurtains` and `OpenWindow` are no "
+        "longer required; "
+        "in the situation of the conflict, the rules then require `NOT OpenCurtains`; nothing else changes"
+    )
     assert f"  {AIR}\n     {effect}\n" in shown
 
 

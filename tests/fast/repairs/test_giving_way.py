@@ -28,10 +28,15 @@ def test_a_rule_gives_way_by_a_condition_at_its_trigger() -> None:
     assert CURTAINS.replace("AND RoomStuffy", "AND RoomStuffy AND NOT UserUndressed") in texts
 
 
-def test_the_smallest_change_is_first() -> None:
-    sizes = [repair.effect.situations for repair in repairs_of(CURTAINS)]
-    assert sizes[0] == 0
-    assert sizes == sorted(size for size in sizes if size is not None)
+def test_what_takes_away_least_is_first() -> None:
+    found = repairs_of(CURTAINS)
+    harms = [repair.effect.harm for repair in found]
+    assert harms == sorted(harm for harm in harms if harm is not None)
+    # The window and the curtains are two duties.
+    titles = [repair.candidate.title for repair in found]
+    assert titles.index("add to rule `air`: `UNLESS UserUndressed IN WHICH CASE OpenWindow`") < titles.index(
+        "add to the trigger of rule `air`: `AND NOT UserUndressed`"
+    )
 
 
 def test_no_repair_leaves_or_adds_a_finding() -> None:
