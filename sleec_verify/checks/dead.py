@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sleec_runtime.model import RELATIONS, Clause, Formula, MeasureRelation, Rule, in_text_order
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.checks.questions import ask_both_parts, ask_each, ask_each_shape
+from sleec_verify.checks.relevant_rules import in_words
 from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.results.finding import ClauseRef, Finding
 from sleec_verify.traces.partition import without
-from sleec_verify.wording.phrases import clause_name, exception, quoted
+from sleec_verify.wording.phrases import clause_name, exception, listed, quoted
 from sleec_verify.wording.sentence import sentence
 
 if TYPE_CHECKING:
@@ -20,59 +21,110 @@ if TYPE_CHECKING:
 
 
 def _dead_rules(index: RulesetIndex) -> Iterator[Finding]:
+    """A finding for each rule that never applies."""
+    yield from _ask_with_relations(index, _rules_in_situations, _rules_in_traces)
+
+
+def _dead_hedges(index: RulesetIndex) -> Iterator[Finding]:
+    """A finding for each hedge that never decides."""
+    yield from _ask_with_relations(index, _hedges_in_situations, _hedges_in_traces)
+
+
+def _ask_with_relations(
+    index: RulesetIndex,
+    in_situations: Callable[[RulesetIndex], Iterable[Finding]],
+    in_traces: Callable[[TraceIndex, Rule, Collection[ClauseRef]], Iterable[Finding]],
+) -> Iterator[Finding]:
+    """The findings about situations. Then, for each rule that relations and constraints of traces concern, the findings
+    of `in_traces`, which gets the rules (as clause 0) and hedges that are found already."""
+    dead: set[ClauseRef] = set()
+
+    def situations(_: RulesetIndex) -> Iterator[Finding]:
+        for finding in in_situations(with_facts(index)):
+            dead.update(finding.clauses or (ClauseRef(finding.rules[0], 0),))
+            yield finding
+
+    def traces(part: TraceIndex) -> Iterator[Finding]:
+        from sleec_verify.traces.questions import is_constrained
+
+        def of(rule: Rule) -> Iterator[Finding]:
+            if is_constrained(part, rule):
+                yield from in_traces(part, rule, dead)
+
+        yield from ask_each(((quoted(rule.label), rule) for rule in part.rules), of)
+
+    yield from ask_both_parts(index, situations, traces)
+
+
+def with_facts(index: RulesetIndex) -> RulesetIndex:
+    """The ruleset for questions about situations, with the relations between measures as assumptions."""
+    relations = [law for law in index.ruleset.statements if isinstance(law, RELATIONS)]
+    between_events = [law for law in relations if not isinstance(law, MeasureRelation)]
+    return without(index, (), between_events) if relations else index
+
+
+def _rules_in_situations(index: RulesetIndex) -> Iterator[Finding]:
     """The disjunction of the guards of a rule. It is unsatisfiable if and only if the rule is dead. A model is a
     situation that triggers the rule."""
 
     def of(position: int) -> Iterator[Finding]:
-        rule = index.rules[position]
         with Question(index) as question:
             guards = question.guards(position)
             if not question.ask(question.encoder.any_of(guards)):
-                yield DEAD_RULE.finding(
-                    sentence("rule {rule} never applies", rule=quoted(rule.label)),
-                    rule.heading_span,
-                    rules=(rule.label,),
-                    help=sentence("check its condition and the assumptions, or remove it"),
+                yield _dead_rule(
+                    index.rules[position], sentence("check its condition and the assumptions, or remove it")
                 )
 
     yield from ask_each_shape(index, of)
 
 
-def _dead_hedges(index: RulesetIndex) -> Iterator[Finding]:
-    """A finding for each hedge that never decides."""
-    relations = [law for law in index.ruleset.statements if isinstance(law, RELATIONS)]
-    if not relations:
-        yield from _hedges_in_situations(index)
+def _dead_rule(rule: Rule, help: str, note: str | None = None) -> Finding:
+    return DEAD_RULE.finding(
+        sentence("rule {rule} never applies", rule=quoted(rule.label)),
+        rule.heading_span,
+        rules=(rule.label,),
+        note=note,
+        help=help,
+    )
+
+
+def _rules_in_traces(traces: TraceIndex, rule: Rule, dead: Collection[ClauseRef]) -> Iterator[Finding]:
+    """A finding if the rule applies at no instant that the relations allow, for all traces, lawful or not."""
+    from sleec_verify.traces.questions import find_application
+
+    if ClauseRef(rule.label, 0) in dead:
         return
-    between_events = [law for law in relations if not isinstance(law, MeasureRelation)]
-    dead: set[tuple[ClauseRef, ...]] = set()
-
-    def in_situations(_: RulesetIndex) -> Iterator[Finding]:
-        for finding in _hedges_in_situations(without(index, (), between_events)):
-            dead.add(finding.clauses)
-            yield finding
-
-    # Ask about relations between events only for hedges that decide without them.
-    yield from ask_both_parts(index, in_situations, lambda traces: _hedges_in_traces(traces, dead))
+    answer = find_application(traces, rule)
+    if answer.trace is None:
+        yield _dead_rule(
+            rule, sentence("check its condition and the relations, or remove it"), _prevented(traces, answer.matter)
+        )
 
 
-def _hedges_in_traces(traces: TraceIndex, dead: Collection[tuple[ClauseRef, ...]]) -> Iterator[Finding]:
-    """A finding for each hedge that is not already reported as dead and that decides at no instant that the
+def _hedges_in_traces(traces: TraceIndex, rule: Rule, dead: Collection[ClauseRef]) -> Iterator[Finding]:
+    """A finding for each hedge of the rule that is not already reported as dead and that decides at no instant that the
     relations allow, for all traces, lawful or not."""
     from sleec_verify.traces.questions import find_decision
 
-    def of(place: tuple[Rule, int]) -> Iterator[Finding]:
-        rule, number = place
-        if (ClauseRef(rule.label, number),) not in dead and find_decision(traces, rule, number).trace is None:
+    for number, hedge in enumerate(rule.clauses()):
+        if not number or ClauseRef(rule.label, number) in dead:
+            continue
+        answer = find_decision(traces, rule, number)
+        if answer.trace is None:
             yield DEAD_HEDGE.finding(
                 sentence("{clause} never applies", clause=clause_name(rule, number)),
-                list(rule.clauses())[number].span,
+                hedge.span,
                 rules=(rule.label,),
                 clauses=(ClauseRef(rule.label, number),),
+                note=_prevented(traces, answer.matter),
                 help=sentence("check its condition and the relations, or remove it"),
             )
 
-    yield from ask_each(places_of_hedges(traces.rules), of)
+
+def _prevented(traces: TraceIndex, matter: Iterable[str]) -> str | None:
+    """The relations and constraints with which something never applies, in words."""
+    others = in_words(traces, matter)
+    return sentence("{relations} excludes it", relations=listed(others)) if others else None
 
 
 def places_of_hedges(rules: Iterable[Rule]) -> Iterator[tuple[str, tuple[Rule, int]]]:

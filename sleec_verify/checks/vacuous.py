@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from sleec_runtime.model import Atom, Never, Rule
 from sleec_verify.checks.base import Check, FindingKind, literals_of
+from sleec_verify.checks.dead import with_facts
 from sleec_verify.checks.questions import ask_both_parts, ask_each
 from sleec_verify.checks.relevant_rules import in_words, rules_in
 from sleec_verify.encoding.budget import as_far_as_decided
@@ -61,7 +62,7 @@ def _in_traces(index: RulesetIndex, traces: TraceIndex) -> Iterator[Finding]:
 
     def of(rule: Rule) -> Iterator[Finding]:
         answer = find_trigger(traces, rule)
-        if answer.trace is not None or not _is_triggered_by_itself(index, rule):
+        if answer.trace is not None or not _can_apply(index, traces, rule):
             return
         matter = [key for key in answer.matter if key != rule.label]
         others = in_words(traces, matter)
@@ -89,10 +90,14 @@ def _alone(traces: TraceIndex, rule: Rule) -> str:
     return sentence("it contradicts itself") if contradicts else sentence("its consequences never end")
 
 
-def _is_triggered_by_itself(index: RulesetIndex, rule: Rule) -> bool:
-    """Whether some situation triggers the rule, without regard to relations. Otherwise it is a dead rule."""
-    with Question(index) as question:
-        return question.ask(question.encoder.any_of(question.guards_of(rule)))
+def _can_apply(index: RulesetIndex, traces: TraceIndex, rule: Rule) -> bool:
+    """Whether the rule applies somewhere, if only the relations count. Otherwise it is a dead rule."""
+    from sleec_verify.traces.questions import find_application
+
+    with Question(with_facts(index)) as question:
+        if not question.ask(question.encoder.any_of(question.guards_of(rule))):
+            return False
+    return find_application(traces, rule).trace is not None
 
 
 def _by_trigger(index: RulesetIndex) -> Iterator[tuple[str, int]]:

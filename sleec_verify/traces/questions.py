@@ -9,6 +9,7 @@ from typing import NamedTuple
 from sleec_runtime.model import Claim, Formula, Length, Rule
 from sleec_verify.encoding.budget import begin
 from sleec_verify.encoding.mentioned_names import add_claim
+from sleec_verify.encoding.relations import events_of
 from sleec_verify.encoding.solver import Undecided
 from sleec_verify.encoding.trace_scope import responses_of
 from sleec_verify.results.found_trace import FoundTrace, Shows
@@ -93,7 +94,23 @@ def find_decision(index: TraceIndex, rule: Rule, clause: int) -> Answer:
     the rules."""
     shown = _Shown("decision", rule.label, clause)
     answer = _ask(_about(index, [rule]), shown, lambda model, at: [model.guards(at, rule)[clause][1]], rules={})
-    return answer.conclude(f"hedge {clause} of {quoted(rule.label)} decides in no trace")
+    return answer.conclude(f"clause {clause} of {quoted(rule.label)} decides in no trace")
+
+
+def find_application(index: TraceIndex, rule: Rule) -> Answer:
+    """An instant at which `rule` applies, as `find_decision` of any clause. Without one, the rule is dead."""
+    matter: list[str] = []
+    for number, _ in enumerate(rule.clauses()):
+        answer = find_decision(index, rule, number)
+        if answer.trace is not None:
+            return answer
+        matter += answer.matter
+    return Answer(None, tuple(dict.fromkeys(matter)))
+
+
+def is_constrained(index: TraceIndex, rule: Rule) -> bool:
+    """Whether relations or constraints of events can affect where `rule` applies."""
+    return any(any(events_of(relation)) for relation in _about(index, [rule]).relations)
 
 
 def find_claim(index: TraceIndex, claim: Claim) -> Answer:
