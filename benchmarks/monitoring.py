@@ -40,7 +40,7 @@ def cycle(number: int) -> Sequence[Message]:
     return (
         ConditionsUpdate(conditions={"UserUndressed": undressed, "UserDistressed": False}),
         MissionEvent(trigger="CurtainOpenRequest"),
-        Executed(node="n", triggered=0, time=0, obligations=done),
+        Executed(node="n", triggered=0, time=0, executed=done),
     )
 
 
@@ -53,7 +53,7 @@ def delays(robot: Transport) -> list[float]:
     found = []
     for _ in range(VIOLATIONS):
         arrived.clear()
-        fields = Executed(node="n", triggered=0, time=0, obligations=("OpenCurtains",)).to_fields()
+        fields = Executed(node="n", triggered=0, time=0, executed=("OpenCurtains",)).to_fields()
         begin = time.perf_counter()
         publisher.publish(fields)
         if not arrived.wait(20):

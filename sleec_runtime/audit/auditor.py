@@ -8,7 +8,7 @@ from sleec_runtime.audit.constraints import ConstraintMonitor
 from sleec_runtime.audit.coverage import Coverage
 from sleec_runtime.audit.deviation import Deviation, DeviationKind, Triggered
 from sleec_runtime.audit.domain_rules import DomainRules
-from sleec_runtime.audit.duty import Duty, DutyMaker
+from sleec_runtime.audit.duty import Due, Duty, DutyMaker
 from sleec_runtime.audit.history import HistoryMonitor
 from sleec_runtime.audit.moment import UNKNOWN_DOMAIN, Moment
 from sleec_runtime.audit.observation import Entered, Executed, Observation, Occurred, Reported
@@ -65,6 +65,8 @@ class Auditor:
         self.permissions = Permissions(seconds, untimed)
         self.moment = Moment(0, domain, {})
         self.simultaneous: set[str] = set()
+        self.unobserved: set[str] = set()
+        """The obligations whose executions are not always recorded. That one was not executed is then unknown."""
         self.untimed = untimed
         self._maker = DutyMaker(ruleset.reading, untimed)
         self._domains: dict[str | None, DomainRules] = {}
@@ -259,9 +261,13 @@ class Auditor:
         self.permissions.end(duty)
         if met:
             return []
-        if met is None:
+        if met is None or any(self._is_unobserved(due) for due in duty.task.dues()):
             return [self._deviation(duty, "undetermined")]
         return [self._deviation(duty, "missed")]
+
+    def _is_unobserved(self, due: Due) -> bool:
+        """Whether an obligation may have been executed although nothing was recorded."""
+        return due.met is False and not due.obligation.negated and due.obligation.name in self.unobserved
 
     def _deviation(self, duty: Duty, kind: DeviationKind) -> Deviation:
         failed = [due for due in duty.task.dues() if due.met is False]
@@ -284,7 +290,14 @@ class Auditor:
             obligation,
             None if due is None else due.first,
             None if due is None else due.last,
-            missing=tuple(dict.fromkeys(duty.task.unreported())),
+            missing=tuple(
+                dict.fromkeys(
+                    [
+                        *duty.task.unreported(),
+                        *(one.obligation.name for one in duty.task.dues() if self._is_unobserved(one)),
+                    ]
+                )
+            ),
         )
 
     def _rules_of(self, domain: str | None) -> DomainRules:

@@ -20,7 +20,7 @@ from sleec_runtime.evaluation.trace import Untimed
 from sleec_runtime.model import LONGEST, Context, Lasting, Ruleset, Value, fit
 from sleec_runtime.timed.plain_data import number_from_plain, number_to_plain
 
-FORMAT = 1
+FORMAT = 2
 """The version of the format. Other versions are rejected."""
 
 
@@ -55,6 +55,7 @@ def save(auditor: Auditor) -> dict[str, Any]:
             for response, times in auditor.response_times.by_response.items()
         ],
         "unknown": sorted(map(list, auditor.vocabulary.reported)),
+        "unobserved": sorted(auditor.unobserved),
         "contexts": contexts.plain,
     }
 
@@ -100,6 +101,7 @@ def _restored(ruleset: Ruleset, state: Any) -> Auditor:
         response = Response(_name(rule), _count(clause), _name(name))
         times = auditor.response_times.by_response.setdefault(response, Times())
         times.seconds, times.shares, times.missed = _quantiles_from(seconds), _quantiles_from(shares), _count(missed)
+    auditor.unobserved = _names(state["unobserved"])
     auditor.vocabulary.reported = {(_name(kind), _name(name)) for kind, name in state["unknown"]}
     return auditor
 

@@ -14,7 +14,7 @@ from sleec_runtime.ros.transport_errors import MalformedMessage
 from sleec_runtime.support.messages import listed, represent
 
 VERSION = 1
-"""The version of the messages. Other versions are rejected."""
+"""The version of most messages."""
 
 Conditions = Mapping[str, "Value | None"]
 """Reported conditions and measures, by name. None: the value is unknown."""
@@ -27,15 +27,17 @@ class Message:
 
     topic: ClassVar[Topic]
     max_size: ClassVar[int] = 1024 * 1024
+    version: ClassVar[int] = VERSION
+    """Other versions are rejected, except for those that `read_earlier` reads."""
 
     @classmethod
     def from_json(cls: type[M], text: object) -> M:
         """Raises MalformedMessage."""
         given = read_object(text, cls.max_size)
-        version = given.pop("v", VERSION)
-        if type(version) is not int or version != VERSION:
+        version = given.pop("v", cls.version)
+        if type(version) is not int or not (version == cls.version or cls.read_earlier(version, given)):
             raise MalformedMessage(
-                f"the message has version {represent(version)}, and this node reads version {VERSION}",
+                f"the message has version {represent(version)}, and this node reads version {cls.version}",
                 "run one version of sleec-runtime on all nodes",
             )
         kinds = {one.name: one for one in fields(cls)}  # type: ignore[arg-type]
@@ -51,13 +53,19 @@ class Message:
             raise MalformedMessage(f"the message has no {listed(required)}", f"give {listed(kinds)}") from None
 
     @classmethod
+    def read_earlier(cls, version: int, given: dict[str, Any]) -> bool:
+        """Replaces the fields of an earlier version by those of this one, if it can be read."""
+        del version, given
+        return False
+
+    @classmethod
     def from_fields(cls: type[M], received: object) -> M:
         """The message in the fields of a received String. Raises MalformedMessage."""
         return cls.from_json(received.get("data") if isinstance(received, Mapping) else received)
 
     def to_json(self) -> str:
         """Without optional fields that are None. Raises MalformedMessage for what receivers would reject."""
-        written: dict[str, object] = {"v": VERSION}
+        written: dict[str, object] = {"v": self.version}
         for one in fields(self):  # type: ignore[arg-type]
             value = getattr(self, one.name)
             if value is not None or _is_required(one):
@@ -134,6 +142,10 @@ def _texts(name: str, value: object) -> tuple[str, ...]:
     return tuple(value)
 
 
+def _optional_texts(name: str, value: object) -> tuple[str, ...] | None:
+    return None if value is None else _texts(name, value)
+
+
 def _clauses(name: str, value: object) -> tuple[tuple[str, int], ...]:
     if not isinstance(value, list):
         raise _wrong(name, value, "a list of pairs of a rule and a number")
@@ -175,6 +187,7 @@ _READ: Mapping[str, Callable[[str, Any], object]] = {
     "float": _seconds,
     "float | None": _optional_seconds,
     "tuple[str, ...]": _texts,
+    "tuple[str, ...] | None": _optional_texts,
     "tuple[tuple[str, int], ...]": _clauses,
     "Mapping[str, Any]": _object,
     "Conditions": conditions_of,

@@ -92,8 +92,14 @@ class MissionEvent(Message):
 
 @dataclass(frozen=True, kw_only=True)
 class Executed(Message):
-    """A node reports the obligations that it executed for a trigger, in the context of update `number` of `manager`.
-    Without a trigger, the Context Manager started the obligation.
+    """A node reports what it did for a trigger, in the context of update `number` of `manager`. Without a trigger, the
+    Context Manager started an obligation.
+
+    `due` are the obligations that the rules require, by the decision of the node. `executed` are those that its code
+    executed, in order, as a recording saw them; None if nobody recorded. Only `executed` says what the robot did: the
+    code of a variant may execute something else than its rule requires. `unrecorded` are those of `due` that no
+    recording can see, because the code has no callable for them. Version 1 had `due` as `obligations`, and nothing
+    else of this.
 
     `refused` is the reason why the node executed nothing, and `failed` the error that its code raised. `policy` is that
     of a node that was out of step. Times are in seconds since 1970: `triggered` when the trigger arrived, `time` at the
@@ -101,17 +107,27 @@ class Executed(Message):
     """
 
     topic = Topic("/executed", depth=100)
+    version = 2
     node: str
     triggered: float
     time: float
     trigger: str | None = None
-    obligations: tuple[str, ...] = ()
+    due: tuple[str, ...] = ()
+    executed: tuple[str, ...] | None = None
+    unrecorded: tuple[str, ...] = ()
     clauses: tuple[tuple[str, int], ...] = ()
     manager: str | None = None
     number: int | None = None
     policy: str | None = None
     refused: str | None = None
     failed: str | None = None
+
+    @classmethod
+    def read_earlier(cls, version: int, given: dict[str, Any]) -> bool:
+        if version != 1:
+            return False
+        given["due"] = given.pop("obligations", [])
+        return True
 
 
 @dataclass(frozen=True, kw_only=True)

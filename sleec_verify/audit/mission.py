@@ -210,6 +210,8 @@ class Mission:
                 self.topics.add(item.topic)
             for meaning in self._mapping.observations(item):
                 if isinstance(meaning, Misfit):
+                    if meaning.source.kind == "obligation":
+                        self.auditor.unobserved.add(meaning.source.name)
                     where = meaning.source.where
                     problem = f"the mapping of {where} does not fit `{item.topic}`: {meaning.message}"
                     self._record(Record("unreadable", problem, item.time, name=where))

@@ -123,9 +123,9 @@ class FaultyMission:
         report = Executed.from_fields(fields)
         assert report.failed is None
         self.outcomes["refused" if report.refused else "executed"] += 1
-        self._done += report.obligations
+        self._done += report.executed or ()
         if report.refused:
-            assert not report.obligations
+            assert not report.executed
             return
         assert report.manager is not None
         assert report.number is not None
@@ -133,7 +133,8 @@ class FaultyMission:
         found = due(rules, Context(frozenset([report.trigger or ""]), context.conditions))
         own = [one for one in found.decisions if one.rule.label in self._labels[report.node]]
         assert report.clauses == tuple((one.rule.label, one.clause) for one in own)
-        assert list(report.obligations) == [str(o) for one in own for o in one.obligations if not o.negated]
+        assert list(report.due) == [str(o) for one in own for o in one.obligations if not o.negated]
+        assert report.executed == report.due
         if not self._faults.reorder:
             ended = self._ended.get((report.manager, report.number), float("inf"))
             # A report arrives up to half a second later.

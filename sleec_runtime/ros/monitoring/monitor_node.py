@@ -105,6 +105,8 @@ class MonitorNode(Node):
             message = RawMessage(self.exact_time(), topic.name, topic.type, fields)
             for observation in self._mapping.observations(message):
                 if isinstance(observation, Misfit):
+                    if observation.source.kind == "obligation":
+                        self.auditor.unobserved.add(observation.source.name)
                     self._count(observation)
                 else:
                     self._publish(self.auditor.observe(observation))

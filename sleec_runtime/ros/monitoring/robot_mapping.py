@@ -145,7 +145,10 @@ class RobotMapping(TopicMapping):
             else:
                 problem = f"the time of `{report.trigger}` is not known; add the topic that triggers it to the mapping"
                 yield _misfit(message, problem)
-        for obligation in report.obligations:
+        problem = "the report says what the rules require, and not what the robot executed"
+        for obligation in report.due if report.executed is None else report.unrecorded:
+            yield Misfit(message.time, Source(message.topic, "obligation", obligation, message.topic), problem)
+        for obligation in report.executed or ():
             yield Execution(message.time, obligation)
 
     def _is_new(self, report: Executed) -> bool:

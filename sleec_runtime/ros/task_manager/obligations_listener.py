@@ -8,6 +8,7 @@ from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from sleec_runtime.dispatch.recording import recording
 from sleec_runtime.errors import SleecError
 from sleec_runtime.facade.sleec import Sleec
 from sleec_runtime.ros.messages import Completed, Executed, Start
@@ -57,7 +58,7 @@ class ObligationsListener:
                 run.is_completed = True
         if not runs:
             raise SleecError(f"`{obligation}` is not under way", "report it once, when it is done")
-        self._report_end(runs[-1], obligations=(obligation,))
+        self._report_end(runs[-1], due=(obligation,), executed=(obligation,))
         for run in runs:
             self._send_completed(run.start)
 
@@ -78,25 +79,33 @@ class ObligationsListener:
             # The report was lost, or has not arrived yet.
             self._send_completed(start)
             return
-        try:
-            function(start.arguments)
-        except BaseException as error:  # noqa: BLE001 - reported
-            self._report_end(run, failed=self._on_error(start.obligation, error))
-            raise_interrupt(error)
-        else:
-            if start.obligation not in code.takes_time and not run.is_completed:
-                self.complete(start.obligation)
+        with recording(apart=True) as seen:
+            try:
+                function(start.arguments)
+            except BaseException as error:  # noqa: BLE001 - reported
+                others = tuple(name for name in seen.executed if name != start.obligation)
+                self._report_end(run, executed=others, failed=self._on_error(start.obligation, error))
+                raise_interrupt(error)
+                return
+        others = tuple(name for name in seen.executed if name != start.obligation)
+        if others:
+            self._report_end(run, executed=others)
+        if start.obligation not in code.takes_time and not run.is_completed:
+            self.complete(start.obligation)
 
     def _send_completed(self, start: Start) -> None:
         self._send(Completed(node=self._node.name, id=start.id, obligation=start.obligation))
 
-    def _report_end(self, run: _Run, obligations: tuple[str, ...] = (), failed: str | None = None) -> None:
+    def _report_end(
+        self, run: _Run, executed: tuple[str, ...], due: tuple[str, ...] = (), failed: str | None = None
+    ) -> None:
         self._report(
             Executed(
                 node=self._node.name,
                 triggered=run.arrived,
                 time=time.time(),
-                obligations=obligations,
+                due=due,
+                executed=executed,
                 manager=run.start.manager,
                 number=run.start.number,
                 failed=failed,

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import logging
 import time
-from collections.abc import Callable, Iterable
-from contextlib import suppress
+from collections.abc import Callable, Collection, Iterable
+from contextlib import ExitStack, suppress
 
+from sleec_runtime.dispatch.implementations import implementations, watched
+from sleec_runtime.dispatch.recording import recording
 from sleec_runtime.dispatch.snapshot import Snapshot
 from sleec_runtime.errors import SleecError, UnknownTrigger
 from sleec_runtime.facade.done import Done
@@ -72,11 +74,17 @@ class TaskManagerNode:
         self._node = Node(name, transport, sleec.clock, on_problem)
         self._held = HeldTriggers(self._node.clock, longest_hold)
         self._mission_ids = RecentIds()
+        self._watched = ExitStack()
         with self._node.starting():
             self._node.own(sleec)
             if type(self) is not TaskManagerNode:
                 sleec.bind(self)
             self._rules = claim_rules(sleec, rules)
+            obligations = snapshot_of(sleec).index.whole.obligations
+            self._recordable = {name for name in obligations if sleec.code.implementation(name) is not None}
+            for robot in sleec.bound_objects():
+                self._recordable.update(implementations(robot, obligations))
+                self._watched.enter_context(watched(robot, obligations))
             by_label = snapshot_of(sleec).index.whole.by_label
             self._triggers = frozenset(by_label[label].trigger for label in self._rules)
             sleec.listen(self._anticipate)
@@ -108,6 +116,7 @@ class TaskManagerNode:
         """Ends the node. The transport and `sleec` stay open."""
         self._node.close()
         self.layer_listener.in_step = False
+        self._watched.close()
 
     def _anticipate(self, before: Snapshot, after: Snapshot, rules: tuple[Rule, ...]) -> None:
         """Prepares the triggers whose rules are decided again, so that they take less time when they occur."""
@@ -130,17 +139,18 @@ class TaskManagerNode:
             if not layers.in_step:
                 self._deviate(trigger, fields, arrived)
                 return
-            try:
-                done = execute(trigger, fields)
-            except BaseException as error:  # noqa: BLE001 - reported
-                self._fail(trigger, arrived, error)
-                raise_interrupt(error)
-            else:
-                self._report(done, trigger, arrived)
+            with recording(apart=True) as seen:
+                try:
+                    done = execute(trigger, fields)
+                except BaseException as error:  # noqa: BLE001 - reported
+                    self._fail(trigger, arrived, error, executed=tuple(seen.executed))
+                    raise_interrupt(error)
+                else:
+                    self._report(done, trigger, arrived, tuple(seen.executed))
 
         return occur
 
-    def _report(self, done: Done, trigger: str, arrived: float) -> None:
+    def _report(self, done: Done, trigger: str, arrived: float, executed: tuple[str, ...]) -> None:
         own = [decision for decision in done.decisions if decision.rule.label in self._rules]
         self._send(
             Executed(
@@ -148,12 +158,18 @@ class TaskManagerNode:
                 triggered=arrived,
                 time=time.time(),
                 trigger=trigger,
-                obligations=tuple(dict.fromkeys(o.name for d in own for o in d.obligations if not o.negated)),
+                due=(due := tuple(dict.fromkeys(o.name for d in own for o in d.obligations if not o.negated))),
+                executed=executed,
+                unrecorded=self._unrecorded(due, executed),
                 clauses=tuple((decision.rule.label, decision.clause) for decision in own),
                 manager=self.layer_listener.watch.followed,
                 number=self.layer_listener.layers.number_of(done.change),
             )
         )
+
+    def _unrecorded(self, due: Iterable[str], executed: Collection[str]) -> tuple[str, ...]:
+        """The obligations whose executions no recording sees: the code has no callable for them."""
+        return tuple(name for name in due if name not in self._recordable and name not in executed)
 
     # Out of step ------------------------------------------------------------------------------
 
@@ -163,14 +179,24 @@ class TaskManagerNode:
         if self._node.closed:
             return
         if self._policy == "default":
-            try:
-                due = run_defaults(self._sleec, trigger, self._rules, fields)
-            except BaseException as error:  # noqa: BLE001 - reported
-                self._fail(trigger, arrived, error, policy="default")
-                raise_interrupt(error)
-                return
+            with recording(apart=True) as seen:
+                try:
+                    due = run_defaults(self._sleec, trigger, self._rules, fields)
+                except BaseException as error:  # noqa: BLE001 - reported
+                    self._fail(trigger, arrived, error, policy="default", executed=tuple(seen.executed))
+                    raise_interrupt(error)
+                    return
             clauses = tuple((decision.rule.label, decision.clause) for decision in due.decisions)
-            self._send_without_context(trigger, arrived, policy="default", obligations=due.obligations, clauses=clauses)
+            executed = tuple(seen.executed)
+            self._send_without_context(
+                trigger,
+                arrived,
+                policy="default",
+                due=due.obligations,
+                executed=executed,
+                unrecorded=self._unrecorded(due.obligations, executed),
+                clauses=clauses,
+            )
         elif self._policy == "refuse":
             self._refuse(trigger, arrived, reason)
         elif not self._held.hold(trigger, fields, arrived):
@@ -191,9 +217,9 @@ class TaskManagerNode:
 
     def _refuse(self, trigger: str, arrived: float, reason: str) -> None:
         self._node.report(OutOfStep(f"{trigger} is refused: {reason}"))
-        self._send_without_context(trigger, arrived, policy=self._policy, refused=reason)
+        self._send_without_context(trigger, arrived, policy=self._policy, refused=reason, executed=())
 
-    def _fail(self, trigger: str, arrived: float, error: BaseException, **fields: str) -> None:
+    def _fail(self, trigger: str, arrived: float, error: BaseException, **fields: object) -> None:
         self._send_without_context(trigger, arrived, failed=self._report_error(trigger, error), **fields)
 
     def _report_error(self, what: str, error: BaseException) -> str:

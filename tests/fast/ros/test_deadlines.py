@@ -109,7 +109,7 @@ def test_an_obligation_that_is_completed_in_time_is_fulfilled() -> None:
     ward.nurse.completed("CallNurse")
     ward.robot.advance(60)
     assert ward.robot.log == ["CallNurse 2"]
-    assert [(one.node, one.obligations) for one in ward.robot.executed] == [("nurse", ("CallNurse",))]
+    assert [(one.node, one.executed) for one in ward.robot.executed] == [("nurse", ("CallNurse",))]
     with pytest.raises(SleecError, match="`CallNurse` is not under way"):
         ward.nurse.completed("CallNurse")
     assert ward.robot.problems == []

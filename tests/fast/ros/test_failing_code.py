@@ -128,7 +128,7 @@ def test_code_that_changes_the_context_does_not_hang_what_is_held() -> None:
         robot.trigger("Ring")
     robot.context_manager()
     robot.advance(4)
-    assert [report.obligations for report in robot.executed] == [("Open",)] * 3
+    assert [report.executed for report in robot.executed] == [("Open",)] * 3
 
 
 @pytest.mark.parametrize("place", ["code", "on_problem"])

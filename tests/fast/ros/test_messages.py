@@ -33,7 +33,12 @@ TUPLES = st.lists(TEXTS, max_size=2).map(tuple)
 RULES = {"ruleset": TEXTS, "reading": TEXTS}
 ID = {"manager": TEXTS, "number": COUNTS, "beat": COUNTS}
 LAYERS = {"full": st.booleans(), "conditions": CONDITIONS, "activate": TUPLES, "deactivate": TUPLES}
-EXECUTED = {"obligations": TUPLES, "clauses": st.lists(st.tuples(TEXTS, COUNTS)).map(tuple), "number": COUNTS}
+EXECUTED = {
+    "due": TUPLES,
+    "executed": st.none() | TUPLES,
+    "clauses": st.lists(st.tuples(TEXTS, COUNTS)).map(tuple),
+    "number": COUNTS,
+}
 PLAIN = st.dictionaries(TEXTS, st.just([1, 2.5, None]), max_size=2)
 MESSAGES = st.one_of(
     st.builds(DomainChange, domain=st.none() | TEXTS),
@@ -106,7 +111,9 @@ def test_what_is_not_a_json_object_is_refused(text: object, message: str) -> Non
         (Heartbeat, '{"manager": "m", "number": true}', "`number` is True"),
         (Executed, '{"time": 1e300}', "`time`"),
         (Executed, '{"clauses": [["a", 0], ["b"]]}', "`clauses`"),
-        (Executed, '{"obligations": "Open"}', "`obligations`"),
+        (Executed, '{"executed": "Open"}', "`executed`"),
+        (Executed, '{"obligations": ["Open"]}', "unknown fields"),
+        (Executed, '{"v": 3}', "version 3"),
         (MissionEvent, '{"trigger": "Ring", "arguments": []}', "`arguments`"),
         (LayersUpdate, '{"full": 1}', "`full`"),
     ],

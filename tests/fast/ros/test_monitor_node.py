@@ -228,7 +228,8 @@ def test_messages_that_do_not_fit_are_reported_once_and_counted(tmp_path: Path, 
     robot.advance(20)
     robot.end()
     kinds = [report.kind for report in robot.received]
-    assert kinds == (["undetermined"] if topic == "/user" else ["missed"])
+    # An execution that nobody could read may have been that of the obligation.
+    assert kinds == (["undetermined"] if topic in ("/user", STATUS) else ["missed"])
 
 
 def test_unknown_values_are_not_problems(tmp_path: Path) -> None:

@@ -86,7 +86,7 @@ def test_each_task_executes_its_own_rules_of_a_trigger_and_all_rules_are_checked
     robot.task("light", ["LightOn", "DimLight"])
     robot.deliver()
     assert robot.trigger("Ring") == ["OpenDoor", "LightOn"]
-    assert [(one.node, one.obligations) for one in robot.executed] == [
+    assert [(one.node, one.executed) for one in robot.executed] == [
         ("door", ("OpenDoor",)),
         ("light", ("LightOn",)),
     ]

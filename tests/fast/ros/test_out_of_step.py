@@ -244,7 +244,7 @@ def test_code_that_takes_long_is_a_possible_reason_for_silence() -> None:
     assert "silent for more than 3 seconds, or code of this node took as long" in str(robot.problems[0])
     robot.advance(1)
     robot.trigger("Ring")
-    assert [report.obligations for report in robot.executed] == [("OpenDoor",), ("OpenDoor",)]
+    assert [report.executed for report in robot.executed] == [("OpenDoor",), ("OpenDoor",)]
 
 
 class Prompt(InProcessPublisher):

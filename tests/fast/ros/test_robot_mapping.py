@@ -58,7 +58,7 @@ def test_an_entry_of_the_mapping_replaces_what_our_nodes_say_about_its_name() ->
         update(0, full=True, Dark="true"),
         ("/conditions", '{"Dark": true, "age": 3}'),
         ("/mission", '{"trigger": "Go"}'),
-        ("/executed", '{"node": "n", "triggered": 1, "time": 1, "trigger": "Go", "obligations": ["Drive", "Look"]}'),
+        ("/executed", '{"node": "n", "triggered": 1, "time": 1, "trigger": "Go", "executed": ["Drive", "Look"]}'),
     )
     assert meanings(*ours, mapping=mapping) == [Reported(3, {"age": 3}), Executed(5, "Look")]
     own: tuple[tuple[str, Any], ...] = (
@@ -79,9 +79,9 @@ def test_messages_of_our_nodes_mean_what_they_say() -> None:
         ("/mission", '{"trigger": "Go", "id": "1"}'),
         ("/mission", '{"trigger": "Go", "id": "1"}'),
         ("/mission", '{"trigger": "Go"}'),
-        ("/executed", '{"node": "n", "triggered": 1, "time": 1.5, "trigger": "Go", "obligations": ["Drive", "Look"]}'),
+        ("/executed", '{"node": "n", "triggered": 1, "time": 1.5, "trigger": "Go", "executed": ["Drive", "Look"]}'),
         ("/executed", '{"node": "n", "triggered": 1, "time": 1.5, "trigger": "Go", "refused": "out of step"}'),
-        ("/executed", '{"node": "n", "triggered": 1, "time": 1.5, "obligations": ["Look"]}'),
+        ("/executed", '{"node": "n", "triggered": 1, "time": 1.5, "executed": ["Look"]}'),
         ("/heartbeat", "{}"),
     ) == [
         Entered(0, "home"),
@@ -134,7 +134,7 @@ def test_a_source_of_the_mapping_takes_the_place_of_the_meaning() -> None:
         ("/domain", "{}", "has no `domain`"),
         ("/domain", '{"v": 2, "domain": null}', "version 2"),
         ("/mission", '{"trigger": 1}', "`trigger` is 1"),
-        ("/executed", '{"obligations": ["Drive"]}', "has no"),
+        ("/executed", '{"executed": ["Drive"]}', "has no"),
         ("/layers_update", " {}", "has no"),
     ],
 )
@@ -153,7 +153,7 @@ def test_messages_of_other_robots_mean_nothing(fields: object) -> None:
 
 def executed(node: str, triggered: float, time: float, trigger: str = "Go") -> tuple[str, str]:
     times = f'"triggered": {triggered}, "time": {time}'
-    return "/executed", f'{{"node": "{node}", {times}, "trigger": "{trigger}", "obligations": ["Drive"]}}'
+    return "/executed", f'{{"node": "{node}", {times}, "trigger": "{trigger}", "executed": ["Drive"]}}'
 
 
 def test_a_report_of_a_task_stands_for_a_trigger_that_nothing_else_shows() -> None:

@@ -42,7 +42,7 @@ def test_each_trigger_is_decided_in_the_context_that_its_report_names() -> None:
     # Update 1 reports the first night, update 2 its end, and so on.
     assert all(one.number is not None and one.refused is None and one.failed is None for one in reports)
     for one in reports:
-        assert one.obligations == ("Whisper" if (one.number or 0) % 2 else "OpenDoor",)
+        assert one.executed == ("Whisper" if (one.number or 0) % 2 else "OpenDoor",)
     for node in (mission, task, manager):
         node.close()
     for transport in transports:

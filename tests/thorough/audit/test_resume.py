@@ -72,7 +72,7 @@ def test_a_state_of_other_rules_is_refused() -> None:
     with pytest.raises(SnapshotRefused, match="other rules"):
         restore(parse("RULE a WHEN A THEN Y"), state)
     with pytest.raises(SnapshotRefused, match="another version"):
-        restore(auditor.ruleset, {**state, "format": 2})
+        restore(auditor.ruleset, {**state, "format": 1})
     malformed: tuple[Any, ...] = (None, [], {}, {**state, "moment": 1}, {**state, "duties": [{"rule": "b"}]})
     for broken in malformed:
         with pytest.raises(SnapshotRefused, match="malformed"):

@@ -68,7 +68,7 @@ def message_of_a_node(chance: Random) -> tuple[str, dict[str, object]]:
                 triggered=chance.random(),
                 time=1,
                 trigger=chance.choice((None, *TRIGGERS)),
-                obligations=tuple(chance.sample(OBLIGATIONS, chance.randrange(3))),
+                executed=tuple(chance.sample(OBLIGATIONS, chance.randrange(3))),
             ),
         )
     )

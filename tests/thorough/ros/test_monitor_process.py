@@ -89,7 +89,7 @@ def test_processes_watch_and_record_one_mission(tmp_path: Path, transports: Call
         publish(message.topic.name, {**message.to_fields()})
 
     def executed(*obligations: str) -> None:
-        send(Executed(node="n", triggered=time.time(), time=time.time(), obligations=obligations))
+        send(Executed(node="n", triggered=time.time(), time=time.time(), executed=obligations))
 
     with (
         node("record", log, "--rules", rules, "--mapping", mapping),
