@@ -91,7 +91,22 @@ def claim_holds(claim: Claim, ruleset: Ruleset, trace: Trace, untimed: Untimed =
     return _TraceEvaluation(ruleset, trace.instants, untimed).claim(claim)
 
 
-class _Due(NamedTuple):
+def ways_to_keep(rule: Rule, instant: Instant, ruleset: Ruleset, untimed: Untimed = "at") -> Iterator[tuple[Due, ...]]:
+    """Each way to keep `rule` at one instant: what must occur, and what must not. An instant at which the rule asks for
+    nothing has one way, without requirements. Raises WrongType as `violations`."""
+    decision = decide(rule, Context(instant.events, instant.conditions), ruleset.reading, ruleset.measures)
+    evaluation = _TraceEvaluation(ruleset, (instant,), untimed)
+    yield from evaluation._ways(() if decision is None else decision.obligations, instant.time, instant)
+
+
+def holds_at(formula: Formula, instant: Instant, ruleset: Ruleset) -> bool:
+    """Whether `formula` is true at an instant, where an obligation is the event of its name. Raises WrongType as
+    `violations`."""
+    done = {a.name: a.name in instant.events for a in leaves(formula) if isinstance(a, Atom)}
+    return bool(truth(formula, Situation(Context(instant.events, instant.conditions), ruleset.measures, obliged=done)))
+
+
+class Due(NamedTuple):
     """An event that must occur, or must not occur, from `first` to `last`, or from `first` on if `last` is None."""
 
     event: str
@@ -175,26 +190,26 @@ class _TraceEvaluation:
         there."""
         if self.goes_on:
             # Together, because one obligation may require what another forbids.
-            never = [_Due(event, True, instant.time, instant.time) for event in absent]
+            never = [Due(event, True, instant.time, instant.time) for event in absent]
             return any(self._can_be_done((*way, *never)) for way in self._ways(obligations, instant.time, instant))
         return all(
             any(all(self._occurs(due) != due.negated for due in way) for way in self._ways_of(o, instant.time, instant))
             for o in obligations
         )
 
-    def _ways(self, obligations: tuple[Obligation, ...], due: Rational, instant: Instant) -> Iterator[tuple[_Due, ...]]:
+    def _ways(self, obligations: tuple[Obligation, ...], due: Rational, instant: Instant) -> Iterator[tuple[Due, ...]]:
         """Each way to fulfil these obligations, which are due from the time `due` on. `instant` is that of the trigger,
         whose measures decide hedges and lengths."""
         for ways in product(*(self._ways_of(obligation, due, instant) for obligation in obligations)):
             yield tuple(one for way in ways for one in way)
 
-    def _ways_of(self, obligation: Obligation, due: Rational, instant: Instant) -> Iterator[tuple[_Due, ...]]:
+    def _ways_of(self, obligation: Obligation, due: Rational, instant: Instant) -> Iterator[tuple[Due, ...]]:
         own = self._own(obligation, due, instant)
         yield (own,)
         for clause, since in _in_place(obligation, due, own):
             yield from self._ways(self._active(clause, instant), since, instant)
 
-    def _own(self, obligation: Obligation, due: Rational, instant: Instant) -> _Due:
+    def _own(self, obligation: Obligation, due: Rational, instant: Instant) -> Due:
         """The requirement of an obligation itself, without its alternatives."""
         window = None if obligation.timing is None else obligation.timing.window
         last: Rational | None
@@ -203,15 +218,15 @@ class _TraceEvaluation:
         else:
             first = due + (0 if window.start is None else _seconds(window.start, instant))
             last = None if window.end is None else due + _seconds(window.end, instant)
-        return _Due(obligation.name, obligation.negated, first, last)
+        return Due(obligation.name, obligation.negated, first, last)
 
-    def _occurs(self, due: _Due) -> bool:
+    def _occurs(self, due: Due) -> bool:
         return any(due.event in instant.events and due.covers(instant.time) for instant in self.instants)
 
-    def _can_be_done(self, way: tuple[_Due, ...]) -> bool:
+    def _can_be_done(self, way: tuple[Due, ...]) -> bool:
         return all(not self._occurs(due) if due.negated else self._occurs(due) or self._room(due, way) for due in way)
 
-    def _room(self, due: _Due, way: tuple[_Due, ...]) -> bool:
+    def _room(self, due: Due, way: tuple[Due, ...]) -> bool:
         """Whether there is a time from now on at which `way` requires the event and does not forbid it."""
         forbidden = [other for other in way if other.negated and other.event == due.event]
         # The earliest time of all, or the first time after a prohibition.
@@ -257,10 +272,7 @@ class _TraceEvaluation:
         return any(self._holds(formula, grown) for grown in _grown(instant, _events_in(formula)))
 
     def _holds(self, formula: Formula, instant: Instant) -> bool:
-        context = Context(instant.events, instant.conditions)
-        # An obligation is the event here.
-        done = {a.name: a.name in instant.events for a in leaves(formula) if isinstance(a, Atom)}
-        return bool(truth(formula, Situation(context, self.ruleset.measures, obliged=done)))
+        return holds_at(formula, instant, self.ruleset)
 
 
 def _events_in(formula: Formula) -> frozenset[str]:
@@ -275,7 +287,7 @@ def _grown(instant: Instant, events: frozenset[str]) -> Iterator[Instant]:
             yield Instant(instant.time, instant.events.union(more), instant.conditions)
 
 
-def _in_place(obligation: Obligation, due: Rational, own: _Due) -> Iterator[tuple[Clause, Rational]]:
+def _in_place(obligation: Obligation, due: Rational, own: Due) -> Iterator[tuple[Clause, Rational]]:
     """The alternatives to an obligation, each with the time from which it is due."""
     timing = obligation.timing
     if timing is None:

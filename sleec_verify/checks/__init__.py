@@ -14,6 +14,7 @@ from sleec_verify.checks.assumptions import ASSUMPTIONS
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.checks.claims import CONCERN, PURPOSE
 from sleec_verify.checks.conflict import CONFLICT
+from sleec_verify.checks.conflict_wording import rejection
 from sleec_verify.checks.confusable import CONFUSABLE
 from sleec_verify.checks.constant_conditions import CONSTANT_CONDITION
 from sleec_verify.checks.dead import DEAD_HEDGE, DEAD_RULE
@@ -36,7 +37,7 @@ from sleec_verify.query.question import is_possible
 from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.replay.situations import replay_finding
 from sleec_verify.results.finding import CheckResult, Finding, Proved, Refuted, Unknown, Verdict
-from sleec_verify.wording.sentence import joined, sentence
+from sleec_verify.wording.sentence import joined
 
 __all__ = ["CHECKS", "Check", "Checking", "FindingKind", "checks_for", "run_checks"]
 
@@ -243,12 +244,7 @@ def _verdict(
             with closing(_findings(check, index)) as proposed:
                 for finding in proposed:
                     if not replay_finding(index, finding):
-                        unknown.append(
-                            sentence(
-                                "the replay rejected a witness; this is a bug in sleec-verify: {finding}",
-                                finding=finding.message,
-                            )
-                        )
+                        unknown.append(rejection(finding))
                         continue
                     if tell is not None and check.scope != "every domain":
                         tell(finding)

@@ -11,10 +11,19 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from sleec_runtime.model import Formula, Obligation, Rule, Span, literals
 from sleec_verify.checks.base import Check, FindingKind, clause_at
-from sleec_verify.checks.conflict_wording import both_sides, exclusion, help_for, reason, sides_in_words, subject
+from sleec_verify.checks.conflict_wording import (
+    both_sides,
+    exclusion,
+    help_for,
+    reason,
+    rejection,
+    sides_in_words,
+    subject,
+)
 from sleec_verify.checks.questions import ask_each
 from sleec_verify.checks.relevant_rules import kind_of, relation_in_words
 from sleec_verify.checks.untimed_conflicts import Cause, Enough, causes
+from sleec_verify.encoding.budget import Undecided
 from sleec_verify.encoding.trace_scope import responses_of
 from sleec_verify.query.inconsistent_sets import InconsistentSet, InconsistentSets, opposite
 from sleec_verify.query.ruleset_index import ClausePosition, InstantIndex, RulesetIndex
@@ -84,19 +93,41 @@ def _refer_to_others(incomplete: Sequence[str]) -> None:
 
 
 def _of_situations(whole: RulesetIndex, index: InstantIndex) -> Iterator[Finding]:
-    """The conflicts of some rules at one instant, in the words of the whole ruleset."""
+    """The conflicts of some rules at one instant, in the words of the whole ruleset. Raises `Undecided` after the last
+    one if some are not confirmed."""
     positions = dict(whole.labelled())
+    rejected = []
     for cause, shown in causes(index):
         places = tuple(ClausePosition(positions[index.rules[place.rule].label], place.number) for place in cause)
-        yield _finding(whole, places, shown)
+        finding = _finding(whole, places, shown)
+        if _is_confirmed(whole, finding):
+            yield finding
+        else:
+            rejected.append(rejection(finding))
+    if rejected:
+        raise Undecided(joined("; ", rejected))
+
+
+def _is_confirmed(index: RulesetIndex, finding: Finding) -> bool:
+    if not index.ruleset.is_timed:
+        return True
+    from sleec_verify.replay.conflicts import is_confirmed_at_once
+
+    return is_confirmed_at_once(index, finding)
 
 
 def _of_traces(whole: TraceIndex, component: TraceIndex, incomplete: list[str]) -> Iterator[Finding]:
     """The conflicts of a component. Adds to `incomplete` the rules of conflicts that may be part of others."""
+    from sleec_verify.replay.conflicts import is_confirmed
     from sleec_verify.traces.conflicts import ConflictSearch
 
     search = ConflictSearch(component)
+    rejected = []
     for conflict in search.find():
+        finding = _of_trace(whole, conflict)
+        if not is_confirmed(whole, conflict):
+            rejected.append(rejection(finding))
+            continue
         if whole.recorder is not None:
             instants = (*conflict.history, conflict.now)
             found = FoundTrace(
@@ -111,7 +142,9 @@ def _of_traces(whole: TraceIndex, component: TraceIndex, incomplete: list[str]) 
             for one in conflict.responses:
                 response = found._replace(shows="response", instants=one.instants, rules=one.rules, now=one.now)
                 whole.recorder.found(response)
-        yield _of_trace(whole, conflict)
+        yield finding
+    if rejected:
+        raise Undecided(joined("; ", rejected))
     if whole.recorder is not None and search.templates is not None:
         labels = tuple(rule.label for rule in component.rules)
         whole.recorder.conflict_free(FreeComponent(whole.root.ruleset, labels, search.templates))

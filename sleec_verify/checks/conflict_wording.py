@@ -12,6 +12,7 @@ from sleec_verify.wording.sentence import plural, sentence
 if TYPE_CHECKING:
     from sleec_runtime.model import Ruleset
     from sleec_verify.query.inconsistent_sets import InconsistentSet
+    from sleec_verify.results.finding import Finding
 
 
 def help_for(rules: Sequence[str]) -> str:
@@ -79,3 +80,11 @@ def reason(ruleset: Ruleset, clash: InconsistentSet) -> str:
     if not clash.origins:
         return both_sides(positive[:1])
     return exclusion(sides_in_words(positive, negative), [relation_in_words(ruleset, one) for one in clash.origins])
+
+
+def rejection(finding: Finding) -> str:
+    """Why a check is undecided if the evaluator does not agree with a finding."""
+    return sentence(
+        "the replay rejected a witness; this is a bug in sleec-verify: {finding}",
+        finding=finding.message,
+    )

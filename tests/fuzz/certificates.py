@@ -17,10 +17,10 @@ from sleec_runtime.model import Ruleset
 from sleec_verify.certificates import lrat
 from sleec_verify.certificates.certification import Certificate, certify
 from sleec_verify.certificates.checker import IN_PYTHON
-from sleec_verify.certificates.elaboration import Answer, Elaborator, InvalidLemma, LearntClause, ProofStep
 from sleec_verify.certificates.recorder import RecordedQuestion
 from sleec_verify.certificates.refutation import Disjunction
 from sleec_verify.certificates.verification import check_certificate
+from sleec_verify.encoding.elaboration import Answer, Elaborator, InvalidLemma, LearntClause, ProofStep
 from sleec_verify.encoding.solver import MiniSat
 from tests.fuzz.property import check_error, unless_refused
 

@@ -2,7 +2,7 @@
 that what was found is so.
 
 For each the oracle makes the theory's clauses and judges the steps that refute them (`ask` in
-`proofs/oracle/Findings.v`). What is found here (by a solver, and by `sleec_verify.certificates.elaboration`) is not
+`proofs/oracle/Findings.v`). What is found here (by a solver, and by `sleec_verify.encoding.elaboration`) is not
 trusted.
 """
 
@@ -13,12 +13,12 @@ from pathlib import Path
 from types import TracebackType
 
 from sleec_runtime.model import Ruleset
-from sleec_verify.certificates.elaboration import InvalidLemma
-from sleec_verify.certificates.refutation import refute
 from sleec_verify.certificates.theory.boolean import Boolean
 from sleec_verify.certificates.theory.numbering import Numbering
 from sleec_verify.certificates.theory.oracle import NoAnswer, NotRefuted, Oracle
 from sleec_verify.encoding.calculations import calculations, named
+from sleec_verify.encoding.elaboration import InvalidLemma
+from sleec_verify.encoding.refutation import refute
 from sleec_verify.encoding.trace_scope import has_chains, speaks_of_traces
 
 ProofStep = tuple[int, tuple[int, ...], tuple[int, ...]]

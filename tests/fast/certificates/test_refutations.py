@@ -7,10 +7,11 @@ import random
 import pytest
 from hypothesis import given, settings
 
-from sleec_verify.certificates import lrat, refutation
-from sleec_verify.certificates.elaboration import Elaborator, InvalidLemma, LearntClause
+from sleec_verify.certificates import lrat
 from sleec_verify.certificates.recorder import NoModel, RecordedQuestion, Recorder
-from sleec_verify.certificates.refutation import Disjunction, disjunctions, refute
+from sleec_verify.certificates.refutation import Disjunction, disjunctions
+from sleec_verify.encoding.elaboration import Elaborator, InvalidLemma, LearntClause
+from sleec_verify.encoding.refutation import learnt_clauses, refute
 from sleec_verify.encoding.solver import MiniSat
 from tests.support.formulas import asked, some_question_has_model
 
@@ -80,7 +81,7 @@ def test_a_recorder_keeps_a_formula_that_grows() -> None:
 
 def test_what_the_solver_forgets_is_taken_back_where_it_is_needed() -> None:
     clauses = threes(190, 5, 2)
-    lemmas = refutation.learnt_clauses(clauses, [()])
+    lemmas = learnt_clauses(clauses, [()])
     assert sum(lemma.forgotten for lemma in lemmas) > 100
     formula = Disjunction([RecordedQuestion(clauses, {(): ""})])
     lrat.check(formula.dimacs("a test"), formula.lrat())

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 from sleec_verify.certificates import lrat
 from sleec_verify.certificates.checker import BUILT, IN_PYTHON, checker
-from sleec_verify.certificates.elaboration import InvalidLemma
 from sleec_verify.certificates.recorder import RecordedQuestion
 from sleec_verify.certificates.refutation import Disjunction
+from sleec_verify.encoding.elaboration import InvalidLemma
 from tests.support.coq import require_coq
 from tests.support.formulas import asked, clauses, has_model
 
