@@ -61,7 +61,16 @@ def bind_verdicts(
     shown: Iterable[Evidence], ruleset: Ruleset, domain: str | None, oracle: Path | None, chains: bool = True
 ) -> Iterator[VerdictBinding | UnboundVerdict]:
     """Let the oracle prove the verdicts that depend on refutations, in each domain. Returns the result for each such
-    check. If a verdict is refuted, the findings are proved."""
+    check. If a verdict is refuted, the findings are proved. Conflicts over time are never proved: that no response
+    complies is not stated about the rules."""
+    shown = list(shown)
+    yield from (
+        VerdictBinding(
+            "conflict", False, "that no response complies with the rules is not proved for conflicts over time"
+        )
+        for one in shown
+        if one.result.name == "conflict" and isinstance(one.result.verdict, Refuted) and one.traces
+    )
     results = [
         one.result
         for one in shown

@@ -166,6 +166,16 @@ def test_what_the_theory_does_not_speak_of_is_not_tied(cli: Cli, build: Build) -
     assert cli("certify", "rules.sleec", "-o", "c", "--require-proved").code == 0
 
 
+def test_a_conflict_over_time_is_not_tied(cli: Cli, build: Build) -> None:
+    build(True, True)
+    rules = "WHEN a THEN b WITHIN 5 minutes\nWHEN c THEN NOT b WITHIN 5 minutes\n"
+    ran = cli("certify", "rules.sleec", "-o", "c", "--require-tied", files={"rules.sleec": rules})
+    assert (ran.code, "the verdict of conflict is not proved for the rules: that no response complies" in ran.err) == (
+        2,
+        True,
+    )
+
+
 def test_check_requires_something_of_a_certificate_only(cli: Cli) -> None:
     ran = cli("check", "rules.sleec", "--require-tied", files={"rules.sleec": RULES})
     assert (ran.code, "need --certify DIR" in ran.err) == (2, True)
