@@ -251,15 +251,20 @@ class Histories(TraceModel):
     def history(self) -> tuple[list[TraceInstant], int]:
         """A history without unnecessary events, after the answer yes: its instants and the time of now. The first
         instant is at 0."""
+        found, left = self._moments(), self._occurrences()
         absent: list[int] = []
         needed: set[int] = set()
-        while left := [literal for literal in self._occurrences() if literal not in needed]:
-            if self._exists_without([*absent, -left[0]]):
-                absent.append(-left[0])
+        while ahead := [literal for literal in left if literal not in needed]:
+            if self._exists_without([*absent, -ahead[0]]):
+                absent.append(-ahead[0])
+                found, left = self._moments(), self._occurrences()
             else:
-                needed.add(left[0])
-                found = self._exists_without(absent)
-                assert found, "what was left out can be left out"
+                # If this is undecided, the history found before is as good.
+                needed.add(ahead[0])
+        return found
+
+    def _moments(self) -> tuple[list[TraceInstant], int]:
+        """The history of the last answer, which was yes."""
         times, _ = self.schedule()
         nodes = sorted((n for n in self.used() if n in self.instants and self.events(n)), key=lambda n: times[n])
         begin = min((times[node] for node in nodes), default=times[self.now])

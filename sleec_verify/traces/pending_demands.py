@@ -7,7 +7,7 @@ proofs/traces).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Hashable, Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
@@ -103,7 +103,7 @@ def _demands(index: TraceIndex) -> Iterator[Pending]:
 
 def _shifted(variants: Iterable[tuple[Demand, list[tuple[int, ...]]]]) -> Iterator[tuple[Demand, list[Choice]]]:
     """The demands that no shift makes equal, each with the choices that lead to it."""
-    groups: dict[Demand, list[tuple[Demand, list[tuple[int, ...]]]]] = {}
+    groups: dict[Hashable, list[tuple[Demand, list[tuple[int, ...]]]]] = {}
     for demand, choices in variants:
         groups.setdefault(from_last_end(demand), []).append((demand, choices))
     for group in groups.values():
@@ -124,17 +124,19 @@ def last_end(demand: Demand) -> int:
     return max((atom.end for atom in occurrences(demand) if atom.end is not None), default=0)
 
 
-def from_last_end(demand: Demand) -> Demand:
-    """The demand with all times counted from its last end, except for the begin of windows that are open."""
+def from_last_end(demand: Demand) -> Hashable:
+    """The demand with all times counted from its last end, as a value to compare. Windows that are open begin at the
+    trigger, so their begin is not counted from the end, and they never equal a window that opens later."""
     return _counted_from(demand, last_end(demand))
 
 
-def _counted_from(demand: Demand, origin: int) -> Demand:
+def _counted_from(demand: Demand, origin: int) -> Hashable:
     if isinstance(demand, Occurs):
         start = demand.start if demand.start is None or is_open(demand) else demand.start - origin
-        return demand._replace(start=start, end=None if demand.end is None else demand.end - origin)
+        counted = demand._replace(start=start, end=None if demand.end is None else demand.end - origin)
+        return counted, is_open(demand)
     assert not isinstance(demand, int), "slots have no literals"
-    return type(demand)(tuple(_counted_from(part, origin) for part in demand.parts))
+    return type(demand), tuple(_counted_from(part, origin) for part in demand.parts)
 
 
 def alternatives(demand: Demand) -> Iterator[Occurs]:
