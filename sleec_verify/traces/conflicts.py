@@ -298,6 +298,7 @@ class ConflictSearch:
         """The conflict with a lawful history, if there is one."""
         s = self._situations
         slots = {int(str(f[1])) for f in core if f[0] == "slot"}
+        core = [*core, *self._needed_occurrences(continuations, rules, core)]
         histories = Histories(s, self._about_past(core, slots), rules)
         if not histories.exist():
             # A history may leave more of these rules pending, and then the situation must contain it.
@@ -340,6 +341,17 @@ class ConflictSearch:
                 responses += complying_responses(continuations, rules)
         shown = self._of_the_text(continuations, rules, pairs)
         return Conflict(shown, history, _without_states(now), stated, forced, refutation, tuple(responses))
+
+    def _needed_occurrences(
+        self, continuations: Continuations, rules: list[str], core: Collection[Fact]
+    ) -> Iterator[Fact]:
+        """The facts that an event occurred before now, without which the relations or all rules but one would allow no
+        response. Without these, the history could lead to another situation, which is none of these rules."""
+        smaller = [[other for other in rules if other != label] for label in rules]
+        for fact, literal in continuations.facts.items():
+            is_left_out = fact[0] == "occurred" and fact[-1] and fact not in core
+            if is_left_out and not all(continuations.complies(others, [fact], -literal) for others in smaller):
+                yield fact
 
     def _about_past(self, core: list[Fact], slots: set[int]) -> list[Fact]:
         """The facts of a core about the past, with all facts about some slots. A relation that is not in force may be

@@ -8,6 +8,7 @@ from sleec_runtime.language import parse
 from sleec_verify.checks import run_checks
 from sleec_verify.query.ruleset_index import RulesetIndex, instant_index
 from sleec_verify.results.finding import CheckResult, Unknown
+from tests.support.explicit.conflicts import Explicit
 
 
 def conflict_check(text: str) -> CheckResult:
@@ -19,6 +20,11 @@ def conflict_check(text: str) -> CheckResult:
 def conflicts(text: str) -> set[frozenset[str]]:
     """The sets of rules that are in conflict."""
     return {frozenset(finding.rules) for finding in conflict_check(text).findings}
+
+
+def least(sets: set[frozenset[str]]) -> set[frozenset[str]]:
+    """The sets that contain no other one."""
+    return {rules for rules in sets if not any(fewer < rules for fewer in sets)}
 
 
 def english(*rules: str) -> str:
@@ -154,3 +160,29 @@ def test_a_condition_that_is_always_true_has_a_witness(condition: str, window: s
 def test_the_engine_for_single_instants_takes_no_window_alternative_or_relation(text: str) -> None:
     with pytest.raises(ValueError, match=r"window or an alternative|connects instants"):
         instant_index(RulesetIndex(parse(text)))
+
+
+@pytest.mark.parametrize(
+    ("rules", "relations"),
+    [
+        # B can never have occurred before A: each B breaks a rule.
+        (("A then not A", "B then C", "B then not C"), ("happenBefore B A",)),
+        (("A then not A", "B then C within 1 seconds", "D then not C within 2 seconds"), ("happenBefore C A",)),
+        (("A then C", "B then not C"), ("happenBefore C A",)),
+        (("A then C within 1 seconds", "B then not C within 2 seconds"), ("happenBefore C A", "mutualExclusive A B")),
+        (("A then C within 1 seconds", "B then not C within 2 seconds"), ("happenBefore D B",)),
+        (("A then not B within 1 seconds", "C then B"), ("happenBefore B A", "happenBefore D C")),
+        (("A then not A", "B then not B"), ("happenBefore A B",)),
+        (("A then not A", "B then not B"), ("happenBefore A B", "happenBefore B A")),
+    ],
+)
+def test_a_conflict_has_a_lawful_history_that_the_relations_allow(
+    rules: tuple[str, ...], relations: tuple[str, ...]
+) -> None:
+    text = dsl(*rules) + "relation_start\n" + "\n".join(relations) + "\nrelation_end\n"
+    every = Explicit(parse(text)).conflicts()
+    assert least(every) <= conflicts(text) <= every
+
+
+def test_an_event_that_must_precede_and_that_never_can_occur_leaves_no_situation() -> None:
+    assert conflicts(english("EVENT A", "EVENT C", "NEVER C", "RELATION C PRECEDES A", "WHEN A THEN C")) == set()
