@@ -379,7 +379,7 @@ class ConflictSearch:
         for label in rules:
             rule: Rule = self._index.ruleset.by_label[label]
             own = {Pair(label, s.slots[n].pending.number) for n in slots if s.slots[n].rule.label == label}
-            if rule.trigger not in given and not own and self._is_forced(continuations, rules, rule):
+            if rule.trigger not in given and self._is_forced(continuations, rules, rule):
                 forced.add(label)
             if rule.trigger in given or label in forced:
                 own.update(Pair(label, n) for n, guard in enumerate(s.guards[label]) if s.holds(guard))

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from itertools import permutations
+
 import pytest
 
 from sleec_runtime.language import parse
@@ -186,3 +189,21 @@ def test_a_conflict_has_a_lawful_history_that_the_relations_allow(
 
 def test_an_event_that_must_precede_and_that_never_can_occur_leaves_no_situation() -> None:
     assert conflicts(english("EVENT A", "EVENT C", "NEVER C", "RELATION C PRECEDES A", "WHEN A THEN C")) == set()
+
+
+@pytest.mark.parametrize("order", list(permutations(range(2))))
+@pytest.mark.parametrize("names", list(permutations("BCD")))
+def test_a_rule_that_a_response_triggers_again_has_the_clause_that_decides_then(
+    order: tuple[int, ...], names: tuple[str, ...]
+) -> None:
+    """The response to the first event triggers R2, whose prohibition is pending, with the exception that contradicts
+    it. R2 is in conflict with itself, so this is no conflict of its own."""
+    rules = (
+        "R1 when B then C",
+        "R2 when C then not D eventually unless (not {a}) then D",
+    )
+    text = dsl("A then X").split("rule_start")[0] + "rule_start\n" + "\n".join(rules[one] for one in order)
+    text = re.sub(r"\b[BCD]\b", lambda name: names["BCD".index(name[0])], text) + "\nrule_end\n"
+    (finding,) = conflict_check(text).findings
+    assert finding.rules == (R2,)
+    assert sorted(one.clause for one in finding.clauses) == [0, 1]
