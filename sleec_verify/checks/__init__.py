@@ -24,6 +24,7 @@ from sleec_verify.checks.misread_names import MISREAD_NAME
 from sleec_verify.checks.reading import READING
 from sleec_verify.checks.realizability import REALIZABILITY, realizability
 from sleec_verify.checks.redundant import REDUNDANT_HEDGE, REDUNDANT_RULE
+from sleec_verify.checks.required_input import REQUIRED_INPUT
 from sleec_verify.checks.text import EMPTY_HEDGE, PHRASE_KEYWORD, TRIGGER_OBLIGATION, UNUSED_NAME
 from sleec_verify.checks.text_defects import DEFECTS
 from sleec_verify.checks.unknown_events import STRAY_EVENT
@@ -56,6 +57,7 @@ CHECKS: Mapping[str, Check] = {
         EMPTY_HEDGE,
         TRIGGER_OBLIGATION,
         FORBIDDEN_INPUT,
+        REQUIRED_INPUT,
         PHRASE_KEYWORD,
         CONFUSABLE,
         MISREAD_NAME,

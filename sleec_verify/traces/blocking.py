@@ -87,7 +87,7 @@ class Defeat:
             for rule in index.ruleset.rules
             for clause, guard in zip(rule.clauses(), self._s.guards[rule.label])
             for what in conjuncts(index.responses.of(contested_obligations(index, clause), self._chain))
-            if what.is_immediate and not what.negated and what.event not in index.mere_inputs
+            if what.is_immediate and not what.negated and what.event not in index.never_in_response
         ]
         # A chain of requirements is at most as long as there are requirements; most end after one or two rounds.
         for _ in required:

@@ -54,7 +54,7 @@ class Continuations:
             instant.literal(formula)
         # Ordering measures adds variables, which facts name.
         instant.settle()
-        for event in sorted(situations.index.mere_inputs - situations.inputs.keys()):
+        for event in sorted(situations.index.never_in_response - situations.inputs.keys()):
             model.add([-instant.event(event)])
         active = {number: model.formula.fresh() for number in slots}
         came: dict[tuple[int, Occurs], int] = {}
@@ -97,7 +97,7 @@ class Continuations:
         if kind == "rule" or (kind == "lasts" and not value):
             return None
         if kind == "input":
-            if not value and name not in self.situations.index.mere_inputs:
+            if not value and name not in self.situations.index.never_in_response:
                 return None
             literal = instant.event(str(name))
         elif kind == "state":

@@ -209,6 +209,12 @@ class TraceIndex(Memo):
         """The events that only the environment causes (docs/times.md)."""
         return frozenset(event for event, agent in self.agents.items() if agent == "environment")
 
+    @cached_property
+    def never_in_response(self) -> frozenset[str]:
+        """The mere inputs that no rule requires. One that a rule requires makes no conflict by itself: the check
+        `required-input` reports the rule."""
+        return self.mere_inputs - self.obliging.keys()
+
 
 def trace_index_of(index: RulesetIndex) -> TraceIndex:
     """The same ruleset, for questions about traces."""

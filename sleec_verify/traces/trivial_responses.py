@@ -45,7 +45,7 @@ def _contested(_: TraceIndex) -> dict[int, tuple[Clause, tuple[Obligation, ...]]
 
 def _free_events(index: TraceIndex) -> frozenset[str]:
     free: set[str] = set()
-    candidates = set(index.obliging) - set(index.forbidding) - index.mere_inputs
+    candidates = set(index.obliging) - set(index.forbidding) - index.never_in_response
     candidates -= {*index.relations_of_event, *index.naming}
     grew = True
     while grew:

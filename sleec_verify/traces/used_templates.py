@@ -119,7 +119,7 @@ def _events_now(s: Situations, acts: frozenset[str]) -> frozenset[str]:
         for clause, guard in zip(rule.clauses(), s.guards[rule.label])
         if s.holds(guard)
         for what in conjuncts(s.index.responses.of(contested_obligations(s.index, clause), _undecided))
-        if what.is_immediate and not what.negated and what.event not in s.index.mere_inputs
+        if what.is_immediate and not what.negated and what.event not in s.index.never_in_response
     ]
     grew = True
     while grew:

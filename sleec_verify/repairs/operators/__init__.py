@@ -60,6 +60,7 @@ OPERATORS: Mapping[str, tuple[Operation, ...]] = {
     "SLEEC104": (preventions,),
     "SLEEC105": (relaxations, rules),
     "SLEEC107": (agents, responses, hedges, redundant_rule),
+    "SLEEC108": (responses, hedges, redundant_rule),
     **{code: (removal,) for code, removal in REMOVALS.items()},
     "SLEEC201": (operators, rules),
     "SLEEC202": (orders, hedges, operators),

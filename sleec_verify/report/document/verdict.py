@@ -243,6 +243,7 @@ STATEMENTS: Mapping[str, str] = {
     "empty-hedge": sentence("Every exception says what to do."),
     "trigger-obligation": sentence("No name is both a trigger and an obligation."),
     "forbidden-input": sentence("No rule forbids an event of the environment."),
+    "required-input": sentence("No rule requires an event of the environment."),
     "phrase-keyword": sentence("No phrase contains a keyword in lower case."),
     "confusable": sentence("No names look alike, and no character is invisible or changes the direction of a line."),
     "misread-name": sentence("No name is likely to be misread."),

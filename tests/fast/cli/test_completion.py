@@ -68,7 +68,7 @@ def test_bash_completes_options_and_their_values(home: Path) -> None:
 
 
 def test_bash_completes_codes_and_checks(home: Path) -> None:
-    assert in_bash(home, "sleec-verify", "rules", "SLEEC10") == [f"SLEEC10{i}" for i in range(1, 8)]
+    assert in_bash(home, "sleec-verify", "rules", "SLEEC10") == [f"SLEEC10{i}" for i in range(1, 9)]
     assert in_bash(home, "sleec-verify", "rules", "dead-") == ["dead-rule", "dead-hedge"]
     assert in_bash(home, "sleec-verify", "rules", "sleec20") == ["SLEEC201", "SLEEC202"]
 

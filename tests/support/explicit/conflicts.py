@@ -62,6 +62,12 @@ class Explicit:
         )
 
     @cached_property
+    def required(self) -> Events:
+        """The events that some rule requires."""
+        obligations = (o for rule in self.rules for c in rule.clauses() for o in literals(c))
+        return frozenset(o.name for o in obligations if not o.negated)
+
+    @cached_property
     def inputs(self) -> Events:
         return self.declared | {rule.trigger for rule in self.rules} | (frozenset[str]().union(*self.named) - self.acts)
 
@@ -272,7 +278,7 @@ class Explicit:
     def complies(self, state: State, events: Events, values: int, rules: frozenset[int]) -> bool:
         """Whether the robot has a response to `events` that complies with `rules`."""
         for response in self.subsets:
-            if response >= events and not (response - events) & (self.inputs - self.acts):
+            if response >= events and not (response - events) & (self.inputs - self.acts - self.required):
                 after = self.after(state.only(rules), response, values, rules)
                 if after is not None and self.alive(after, rules):
                     return True

@@ -240,6 +240,6 @@ def test_a_desk_gets_both_from_a_checkout(tmp_path: Path) -> None:
     program = environment.python.with_name("sleec-verify")
     version = subprocess.run([str(program), "--version"], check=True, capture_output=True, text=True).stdout
     assert VERSION in version
-    assert "15 checks passed" in environment.run(
+    assert "16 checks passed" in environment.run(
         "-m", "sleec_verify", "check", str(ROOT / "rulesets/hospital-ward.sleec")
     )

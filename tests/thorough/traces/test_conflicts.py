@@ -303,6 +303,17 @@ def test_long_agreement_about_conditions_that_name_events() -> None:
     assert agreement(range(1000, 1400), random_named) <= 120
 
 
+def random_declared(seed: int) -> str:
+    """Three rules, and one event that is declared as the environment's."""
+    event = random.Random(seed).choice("ABCD")
+    return random_rules(seed).replace(f"  event {event}\n", f"  event {event} as environment\n")
+
+
+@pytest.mark.slow
+def test_agreement_about_declared_events() -> None:
+    assert agreement(range(3000, 3040), random_declared) <= 1
+
+
 @pytest.mark.parametrize("seed", range(12))
 def test_rules_over_fresh_names_change_nothing(seed: int) -> None:
     text = random_rules(seed)
