@@ -6,6 +6,7 @@ robot has no other way is a claim about all its actions, which a replay cannot c
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 from sleec_runtime.evaluation.trace import Instant, Trace, Untimed
@@ -15,6 +16,7 @@ from sleec_verify.games.players import is_environments
 from sleec_verify.results.finding import Finding
 from sleec_verify.results.strategy import Act, Strategy
 from sleec_verify.traces.index import TraceIndex
+from sleec_verify.traces.relations import Name, names_of_relation
 
 
 def replay_strategy(index: TraceIndex, finding: Finding) -> bool:
@@ -23,10 +25,24 @@ def replay_strategy(index: TraceIndex, finding: Finding) -> bool:
     whole = index.ruleset
     rules = tuple(whole.by_label[label] for label in finding.rules)
     measures = tuple(whole.measures.values())
-    robots = replace(whole, statements=(*index.relations, *rules), inferred=measures)
-    lawful = tuple(law for law in index.relations if is_environments(law, index.agents))
+    # The others hold in any case, or depend on conditions and measures that are irrelevant and not shown.
+    shown = set(_names(finding.strategy))
+    relations = tuple(law for law in index.relations if not shown.isdisjoint(names_of_relation(law)))
+    robots = replace(whole, statements=(*relations, *rules), inferred=measures)
+    lawful = tuple(law for law in relations if is_environments(law, index.agents))
     environments = replace(whole, statements=lawful, inferred=measures)
     return _plays(finding.strategy, robots, environments, (), index.untimed)
+
+
+def _names(strategy: Strategy) -> Iterator[Name]:
+    """The events, conditions and measures of a strategy."""
+    acts = [strategy.act, *(act for branch in strategy.branches for act in branch.planned)]
+    for act in acts:
+        yield from (("event", event) for event in act.events)
+        yield from (("measure", name) for name in act.conditions)
+    for branch in strategy.branches:
+        yield from (("event", event) for event in branch.done or ())
+        yield from _names(branch.then)
 
 
 def _plays(

@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from sleec_runtime import model
-from sleec_runtime.model import Assume, Context, MeasureRelation, Value, names_of
+from sleec_runtime.model import Assume, Context, Formula, MeasureRelation, Rule, Value, names_of
 from sleec_verify.encoding.budget import as_far_as_decided
 from sleec_verify.encoding.cnf import Key
+from sleec_verify.encoding.equation import guard
 from sleec_verify.encoding.formula_truth import truth_in
 from sleec_verify.encoding.relations import events_of, formula_at_one_instant
 from sleec_verify.encoding.solver import MiniSat
 from sleec_verify.encoding.window_lengths import measures_of_lengths
 from sleec_verify.traces.continuations import Continuations
+from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.instant import Instant, SharedClauses
 from sleec_verify.traces.situations import Fact, Situations
 
@@ -84,7 +86,34 @@ def needed_values(
                 kept = kept if less is None else less
     kept |= _of_constant_conditions(situations, rules, kept | lengths, values)
     closed = _closed(situations, kept | lengths, values, past)
+    # The values of further measures must satisfy the relations, too.
+    closed = _closed(situations, _with_compared(situations.index, deciding, closed, values), values, past)
     return {name: value for name, value in values.items() if name in closed}
+
+
+def _with_compared(
+    index: TraceIndex, deciding: Iterable[tuple[str, int]], names: set[str], values: Mapping[str, Value]
+) -> set[str]:
+    """These names, with a minimal set of measures with which the clauses decide. A comparison of a measure without a
+    value is false, also one that is true for all values."""
+    measures = index.ruleset.measures
+
+    def decides(rule: Rule, formula: Formula, known: set[str]) -> bool:
+        context = Context(frozenset((rule.trigger,)), {n: value for n, value in values.items() if n in known})
+        return truth_in(context, [formula], measures) == [True]
+
+    found = set(names)
+    for label, number in deciding:
+        rule = index.ruleset.by_label[label]
+        formula = guard(rule, index.ruleset.reading, number)
+        if decides(rule, formula, found):
+            continue
+        compared = set(names_of(formula)) & measures.keys() - found
+        found |= compared
+        for name in sorted(compared):
+            if decides(rule, formula, found - {name}):
+                found.remove(name)
+    return found
 
 
 def names_of_key(instant: Instant, key: Key) -> frozenset[str]:
