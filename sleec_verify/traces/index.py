@@ -52,6 +52,7 @@ class TraceIndex(Memo):
         self.whole = whole
         if whole is not None:
             self.mere_inputs = whole.mere_inputs
+            self.never_in_response = whole.never_in_response
         self.untimed = untimed
         self.recorder = recorder
         self.responses = Responses(untimed, self.lengths)
@@ -69,6 +70,7 @@ class TraceIndex(Memo):
         found = TraceIndex(ruleset, self.untimed, self.recorder)
         # A part of a ruleset has no declarations.
         found.agents = self.root.agents
+        found.never_in_response = self.never_in_response
         return found
 
     def part(self, rules: Iterable[Rule], relations: Iterable[Relation]) -> TraceIndex:
@@ -211,9 +213,9 @@ class TraceIndex(Memo):
 
     @cached_property
     def never_in_response(self) -> frozenset[str]:
-        """The mere inputs that no rule requires. One that a rule requires makes no conflict by itself: the check
-        `required-input` reports the rule."""
-        return self.mere_inputs - self.obliging.keys()
+        """The mere inputs that no rule requires, or that a condition names. Others that a rule requires make no conflict
+        by themselves: the check `required-input` reports the rule."""
+        return self.mere_inputs - (self.obliging.keys() - self.naming.keys())
 
 
 def trace_index_of(index: RulesetIndex) -> TraceIndex:

@@ -12,15 +12,15 @@ MEASURES = "MEASURE t: number\nMEASURE risk: low < mid < high\n"
 WINDOWS = "RULE night WHEN night falls THEN NOT ring WITHIN 8 minutes\n"
 
 
-def only(text: str, check: str, **more: int) -> Finding:
-    result = next(one for one in run_checks(parse(text), [check] if not more else [], **more) if one.name == check)
+def only(text: str, check: str, steps: int | None = None) -> Finding:
+    (result,) = run_checks(parse(text), [check] if steps is None else [], realizable=steps)
     assert isinstance(result.verdict, Refuted), result.verdict
     (finding,) = result.findings
     return finding
 
 
 @pytest.mark.parametrize(
-    ("condition", "measure"), [("t < 25 OR t >= 25", "t"), ("risk >= low", "risk"), ("NOT risk > high", "risk")]
+    ("condition", "measure"), [("t < 25 OR t >= 25", "t"), ("risk >= low", "risk"), ("risk <= high", "risk")]
 )
 @pytest.mark.parametrize("more", ["", "ASSUME risk > low OR dark\n"])
 def test_a_comparison_that_is_always_true_has_a_value(condition: str, measure: str, more: str) -> None:
@@ -35,4 +35,4 @@ def test_a_comparison_that_is_always_true_has_a_value(condition: str, measure: s
 @pytest.mark.parametrize("steps", [1, 3])
 def test_what_a_strategy_does_not_mention_is_not_replayed(steps: int) -> None:
     text = f"ASSUME it is a ward\n{WINDOWS}RULE smoke WHEN smoke rises THEN ring WITHIN 2 minutes\n"
-    assert only(text, "realizability", realizable=steps).rules == ("night", "smoke")
+    assert only(text, "realizability", steps).rules == ("night", "smoke")

@@ -63,9 +63,9 @@ class Explicit:
 
     @cached_property
     def required(self) -> Events:
-        """The events that some rule requires."""
+        """The events that some rule requires and no condition names."""
         obligations = (o for rule in self.rules for c in rule.clauses() for o in literals(c))
-        return frozenset(o.name for o in obligations if not o.negated)
+        return frozenset(o.name for o in obligations if not o.negated).difference(*self.named)
 
     @cached_property
     def inputs(self) -> Events:
