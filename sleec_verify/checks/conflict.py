@@ -37,8 +37,9 @@ from sleec_verify.wording.sentence import joined, plural, sentence
 if TYPE_CHECKING:
     from sleec_verify.encoding.relations import Relation
     from sleec_verify.results.timeline import Timeline
-    from sleec_verify.traces.conflicts import Conflict
+    from sleec_verify.traces.conflicts import Conflict, Pair
     from sleec_verify.traces.index import TraceIndex
+    from sleec_verify.traces.trace import TraceInstant
 
 
 def _conflicts(index: RulesetIndex) -> Iterator[Finding]:
@@ -204,6 +205,17 @@ def _finding(index: RulesetIndex, cause: Cause, shown: list[tuple[InconsistentSe
         [(origin.span, sentence("the constraint")) for origin in origins],
         min((witness for _, witness in shown), key=lambda w: len(w.triggers) + len(w.conditions)),
     )
+
+
+def conflict_over_time(
+    traces: TraceIndex, pairs: tuple[Pair, ...], now: TraceInstant, relations: tuple[str, ...]
+) -> Finding:
+    """The finding of a conflict in one situation, with nothing pending: the rules with the clauses that decide, what
+    occurs now, and the keys of the relations that matter."""
+    from sleec_verify.encoding.solver import Refutation
+    from sleec_verify.traces.conflicts import Conflict
+
+    return _of_trace(traces, Conflict(pairs, (), now, relations, frozenset(), Refutation((), ()), ()))
 
 
 def _of_trace(traces: TraceIndex, conflict: Conflict) -> Finding:

@@ -31,7 +31,8 @@ def command(
 ) -> int:
     """Show what the rules in FILE (- for standard input) require and forbid in one situation.
 
-    If the rules contradict each other there, the output is the conflict, and the exit code is 1. If a response
+    If the rules contradict each other there, also at later times, the output is the conflict, and the exit code is 1.
+    It is 3 if this is not known. An obligation with alternatives is shown as a whole: X, or else Y. If a response
     triggers other rules, the consequences are shown as a tree.
     """
     from sleec_verify.report import entailment
@@ -39,7 +40,7 @@ def command(
 
     ruleset, context, answer = ask(path, when, given, scope)
     write(entailment.RENDERERS[form](ruleset, context, answer, Palette.of(sys.stdout, language)))
-    return exits.HOLDS if answer.consistent else exits.FINDINGS
+    return exits.of_answer(answer.consistent)
 
 
 def ask(path: str, when: tuple[str, ...], given: tuple[str, ...], scope: Scope) -> tuple[Ruleset, Context, Entailment]:

@@ -16,6 +16,11 @@ UNUSABLE = 2
 UNKNOWN = 3
 
 
+def of_answer(consistent: bool | None) -> int:
+    """The exit code of the answer in one situation."""
+    return UNKNOWN if consistent is None else HOLDS if consistent else FINDINGS
+
+
 def code(results: Iterable[CheckResult], fail_level: Severity, ignored: str = "") -> int:
     """The exit code of some results.
 

@@ -35,4 +35,4 @@ def command(path: str, when: tuple[str, ...], given: tuple[str, ...], scope: Sco
 
     ruleset, context, answer = ask(path, when, given, scope)
     write(render(ruleset, context, answer, Palette.of(sys.stdout, language)))
-    return exits.HOLDS if answer.consistent else exits.FINDINGS
+    return exits.of_answer(answer.consistent)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from sleec_runtime.model import Assume, Exclusive, Formula, Never, Obligation, Relation, Span, Value
@@ -21,7 +22,7 @@ class ConditionValue:
 @dataclass(frozen=True)
 class ActiveClause:
     """An active clause: its obligations, their windows (in words, empty for immediate ones), and the conditions that
-    decided for it.
+    decided for it. `choices` has the obligations with alternatives in words, empty for those without.
 
     In a cascade these are the true prefix and the first false condition; by priority, the last true condition and
     the false ones after it.
@@ -34,10 +35,41 @@ class ActiveClause:
     decisions: tuple[ConditionValue, ...]
     span: Span
     times: tuple[str, ...] = ()
+    choices: tuple[str, ...] = ()
 
     def in_words(self) -> tuple[str, ...]:
-        """The obligations, each with its window if it has one."""
-        return tuple(f"{what} {when}".rstrip() for what, when in zip(self.obligations, self.times))
+        """The obligations, each with its window and its alternatives if it has any."""
+        return tuple(
+            choice or f"{what} {when}".rstrip()
+            for what, when, choice in zip(self.obligations, self.times, self.choices)
+        )
+
+    @property
+    def without_choice(self) -> tuple[str, ...]:
+        """The obligations that have no alternatives."""
+        return tuple(what for what, choice in zip(self.obligations, self.choices) if not choice)
+
+
+@dataclass(frozen=True)
+class DueLiteral:
+    """A literal of an alternative. `when` is its window in words, empty if it has none. `overdue`: it is due only after
+    what it replaces was missed."""
+
+    name: str
+    negated: bool
+    when: str
+    overdue: bool
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """An obligation with alternatives, in words: each of `options` meets it. One without literals means that nothing
+    is required."""
+
+    rule: str
+    clause: int
+    words: str
+    options: tuple[tuple[DueLiteral, ...], ...]
 
 
 @dataclass(frozen=True)
@@ -96,8 +128,11 @@ class ScheduledResponse:
 class Entailment:
     """What a ruleset entails in one context.
 
-    If it is not `consistent`, the obligations are empty and `conflicts` says why. `timed` are the literals with a
-    window. Whether these can be met together is not decided, and `consistent` does not include them.
+    `consistent`: some response complies with the rules. If it is False, the obligations are empty and `conflicts` says
+    why. If it is None, this is not decided, `undecided` says why, and the obligations are those that the active clauses
+    state. `obligations` and `prohibitions` are in every complying response. `timed` are those with a window, and
+    `alternatives` those with alternatives. A side of an alternative is among the obligations only if every complying
+    response executes it at once.
     `chain` are the consequences of doing what is due, `at_odds` the events that occur although they are forbidden,
     each with the clauses that forbid it, and `schedule` the windows. These three are filled only on request
     (`sleec_verify.entailment.consequence_tree`, `sleec_verify.entailment.schedule`).
@@ -106,7 +141,7 @@ class Entailment:
     if all comparisons with missing measures are false. `possible` are values with which the situation is possible.
     """
 
-    consistent: bool
+    consistent: bool | None
     obligations: tuple[str, ...]
     prohibitions: tuple[str, ...]
     because: tuple[ActiveClause, ...]
@@ -120,3 +155,18 @@ class Entailment:
     unsettled: tuple[Assume | Relation, ...] = ()
     possible: tuple[tuple[str, Value], ...] = ()
     schedule: tuple[ScheduledResponse, ...] = ()
+    alternatives: tuple[Alternative, ...] = ()
+    undecided: str | None = None
+
+    def with_choices(self, expected: Collection[str], negated: bool) -> tuple[str, ...]:
+        """The obligations (`negated`: the prohibitions), with those of `expected` that a clause states first of several
+        alternatives: a case may name these or not."""
+        found = self.prohibitions if negated else self.obligations
+        first = {one.name for choice in self.alternatives for one in choice.options[0] if one.negated == negated}
+        return tuple(sorted({*found, *first.intersection(expected)}))
+
+    @property
+    def has_windows(self) -> bool:
+        """Whether something that is due, or an alternative to it, has a window."""
+        options = (option for alternative in self.alternatives for option in alternative.options)
+        return bool(self.timed) or any(literal.when for option in options for literal in option)

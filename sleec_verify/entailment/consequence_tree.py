@@ -11,10 +11,11 @@ from itertools import takewhile
 from typing import NamedTuple
 
 from sleec_runtime.model import Context, Ruleset
-from sleec_verify.encoding.response_windows import ResponseWindows, WindowedResponse
+from sleec_verify.encoding.response_windows import ResponseWindows
 from sleec_verify.encoding.trace_scope import Untimed, speaks_of_traces
+from sleec_verify.entailment.active_clauses import active_clauses
+from sleec_verify.entailment.alternatives import has_alternative
 from sleec_verify.entailment.answer import ActiveClause, ConsequenceStep, Entailment
-from sleec_verify.entailment.entailment import entail
 
 DEEPEST = 100
 """The greatest depth of the tree."""
@@ -33,7 +34,7 @@ def chain(ruleset: Ruleset, context: Context, answer: Entailment, untimed: Untim
 
     Each event is expanded once, so the tree is linear in the number of clauses that it reaches.
     """
-    if not answer.consistent:
+    if answer.consistent is False:
         return Chain()
     tree = _Tree(ruleset, context, untimed)
     done = tree.grow(answer.because)
@@ -111,10 +112,12 @@ class _Tree:
             for response in self._windows.of(clause):
                 if response.instead is not None:
                     continue
-                window = None if response.start is None else (response.start, response.end)
+                # The robot can choose another response, so it is not certain that this one occurs at its time.
+                is_choice = has_alternative(response.obligation)
+                window = None if response.start is None or is_choice else (response.start, response.end)
                 if not response.obligation.negated:
                     done.setdefault(response.obligation.name, []).append(window)
-                elif window is not None and not _has_alternative(response):
+                elif window is not None:
                     forbids = _Forbids(one.layer or one.rule, way, *window)
                     self._prohibitions.setdefault(response.obligation.name, []).append(forbids)
         return [
@@ -134,7 +137,7 @@ class _Tree:
         if len(done.way) == DEEPEST:
             return _Node(done, more=True)
         others = self._context.triggers if done.is_at_once else ()
-        answer = entail(self._ruleset, Context(frozenset({name, *others}), self._context.conditions))
+        answer = active_clauses(self._ruleset, Context(frozenset({name, *others}), self._context.conditions))
         because = [one for one in answer.because if self._ruleset.by_label[one.rule].trigger == name]
         self._shown[shown] = bool(because)
         ends = [end for _, end in done.windows]
@@ -155,11 +158,6 @@ class _Tree:
             one for one in self._prohibitions.get(done.name, ()) for window in done.windows if _in(done, window, one)
         )
         return tuple(dict.fromkeys(one.by for one in found))
-
-
-def _has_alternative(response: WindowedResponse) -> bool:
-    timing = response.obligation.timing
-    return timing is not None and (timing.otherwise is not None or timing.instead is not None)
 
 
 def _in(done: _Done, window: tuple[int, int | None], forbids: _Forbids) -> bool:

@@ -17,7 +17,7 @@ def explain(ruleset: Ruleset, context: Context, untimed: Untimed = "at") -> Enta
 
     `untimed` is the meaning of a response without a window in rules with time. Raises `Undecided` as `entail` does.
     """
-    answer = entail(ruleset, context)
+    answer = entail(ruleset, context, untimed=untimed)
     steps, at_odds = chain(ruleset, context, answer, untimed)
     answer = replace(answer, chain=steps, at_odds=at_odds)
     return replace(answer, schedule=schedule(ruleset, context, answer, untimed))

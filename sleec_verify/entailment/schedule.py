@@ -19,7 +19,7 @@ def schedule(
 
     Empty for rules without time, and if the rules contradict each other. Linear in the number of clauses reached.
     """
-    if not (answer.consistent and speaks_of_traces(ruleset)):
+    if answer.consistent is False or not speaks_of_traces(ruleset):
         return ()
     writer = _Writer(ruleset, context, untimed)
     entries = [entry for because in answer.because for entry in writer.of(because, None)]

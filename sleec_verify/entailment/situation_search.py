@@ -18,6 +18,7 @@ from sleec_verify.query.prime_implicates import inconsistent_sets_of
 from sleec_verify.query.question import Question
 from sleec_verify.query.ruleset_index import ClausePosition, RulesetIndex
 from sleec_verify.query.witness import smallest_situation
+from sleec_verify.wording.phrases import quoted
 from sleec_verify.wording.sentence import sentence
 
 Clauses = Sequence[tuple[str, int | None]]
@@ -31,9 +32,18 @@ def with_obligation(index: RulesetIndex, name: str) -> Context | None:
         label = index.rules[place.rule].label
         for context in _candidates(index, place):
             answer = entail(index.ruleset, context)
-            if name in answer.obligations and not answer.broken_assumptions:
+            if answer.broken_assumptions:
+                doubt = Undecided(sentence("relations of the rules may exclude the situation that the solver found"))
+            elif name in answer.obligations:
                 return _confirmed(index, context, [(label, place.number)])
-            doubt = Undecided(sentence("relations of the rules may exclude the situation that the solver found"))
+            else:
+                doubt = Undecided(
+                    sentence(
+                        "in the situations that were tried, the rules contradict each other, or {name} is one of "
+                        "several alternatives",
+                        name=quoted(name),
+                    )
+                )
     if doubt is not None:
         raise doubt
     return None

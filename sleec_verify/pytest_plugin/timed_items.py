@@ -26,6 +26,7 @@ from sleec_verify.entailment.entailment import entail
 from sleec_verify.pytest_plugin import settings
 from sleec_verify.pytest_plugin.coverage import not_counted
 from sleec_verify.pytest_plugin.item import CaseFailure, Item, check_names
+from sleec_verify.report.entailment import undecided_text
 from sleec_verify.wording.phrases import listed
 
 
@@ -163,12 +164,15 @@ class TimedCaseItem(Item):
         expected = entail(part, context)
         if expected.broken_assumptions:
             raise CaseFailure(f"{where}: the relations exclude this situation, so the rules say nothing about it")
+        if expected.undecided is not None:
+            raise CaseFailure(f"{where}: {undecided_text(expected.undecided)}")
         if expected.consistent == case.conflict:
             found = "do not contradict" if expected.consistent else "contradict"
             raise CaseFailure(f"{where}: the rules {found} each other, but the case expects the opposite")
-        check_names(where, "obligations", case.obligations, expected.obligations)
+        check_names(where, "obligations", case.obligations, expected.with_choices(case.obligations, negated=False))
         if case.prohibitions is not None:
-            check_names(where, "prohibitions", case.prohibitions, expected.prohibitions)
+            found_prohibitions = expected.with_choices(case.prohibitions, negated=True)
+            check_names(where, "prohibitions", case.prohibitions, found_prohibitions)
         if expected.consistent:
             alone = Scenario(case.name, (Step(0, case.triggers, case.conditions),), 0, domain=case.domain)
             due = required_in(part, trace_of(alone))

@@ -24,9 +24,13 @@ def _full(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palet
     for finding in answer.conflicts:
         yield from finding_lines(finding, source, palette)
         yield ""
-    if answer.consistent:
-        required = joined(", ", answer.obligations) or sentence("nothing")
-        yield joined(": ", [palette("strong", sentence("required")), required])
+    if answer.undecided is not None:
+        yield joined(": ", [palette("warning", sentence("unknown")), undecided_text(answer.undecided)])
+    if answer.consistent is not False:
+        required = [joined(", ", answer.obligations)] if answer.obligations else []
+        required += [alternative.words for alternative in answer.alternatives]
+        for what in required or [sentence("nothing")]:
+            yield joined(": ", [palette("strong", sentence("required")), what])
         if answer.prohibitions:
             forbidden = joined(", ", answer.prohibitions)
             yield joined(": ", [palette("strong", sentence("forbidden")), forbidden])
@@ -47,6 +51,9 @@ def _concise(ruleset: Ruleset, context: Context, answer: Entailment, palette: Pa
     del context  # the reader knows the question
     yield from answer.obligations
     yield from (f"NOT {name}" for name in answer.prohibitions)
+    yield from (alternative.words for alternative in answer.alternatives)
+    if answer.undecided is not None:
+        yield joined(": ", [sentence("unknown"), undecided_text(answer.undecided)])
     for finding in answer.conflicts:
         place = ruleset.source.place(finding.span)
         label = palette(finding.severity, f"{finding.severity}[{finding.code}]")
@@ -65,11 +72,35 @@ def _json(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palet
         "obligations": due,
         "prohibitions": forbidden,
         "because": [
-            {"rule": b.rule, "clause": b.clause, "layer": b.layer, "obligations": list(b.obligations)}
+            {
+                "rule": b.rule,
+                "clause": b.clause,
+                "layer": b.layer,
+                "obligations": list(b.without_choice),
+                **({"alternatives": [one for one in b.choices if one]} if any(b.choices) else {}),
+            }
             for b in answer.because
         ],
     }
     # Rare keys are present only if they have a value.
+    if answer.undecided is not None:
+        said["undecided"] = answer.undecided
+    if answer.alternatives:
+        said["alternatives"] = [
+            {
+                "rule": one.rule,
+                "clause": one.clause,
+                "text": one.words,
+                "options": [
+                    [
+                        {"obligation": o.name, "negated": o.negated, "when": o.when or None, "overdue": o.overdue}
+                        for o in option
+                    ]
+                    for option in one.options
+                ],
+            }
+            for one in answer.alternatives
+        ]
     if answer.conflicts:
         said["conflicts"] = [finding_json(finding, source) for finding in answer.conflicts]
     if answer.broken_assumptions:
@@ -91,6 +122,11 @@ def _json(ruleset: Ruleset, context: Context, answer: Entailment, palette: Palet
     if answer.missing:
         said["missing"] = list(answer.missing)
     yield dump(said)
+
+
+def undecided_text(reason: str) -> str:
+    """Why it is not known whether the rules contradict each other."""
+    return sentence("it is not known whether the rules contradict each other here: {reason}", reason=reason)
 
 
 def once_done(answer: Entailment, palette: Palette) -> Iterator[str]:
@@ -126,7 +162,8 @@ def _chain_json(steps: tuple[ConsequenceStep, ...]) -> Json:
                 {
                     "rule": because.rule,
                     "clause": because.clause,
-                    "obligations": list(because.obligations),
+                    "obligations": list(because.without_choice),
+                    **({"alternatives": [one for one in because.choices if one]} if any(because.choices) else {}),
                     "chain": _chain_json(done),
                 }
                 for because, done in step.clauses
@@ -179,8 +216,13 @@ def _caveats(ruleset: Ruleset, answer: Entailment) -> Iterator[tuple[str, str]]:
                 clauses=listed(map(quoted, forbidding)),
             ),
         )
-    if answer.timed:
-        yield "note", sentence("`entail` does not look for conflicts at later times; `sleec-verify check` does")
+    if answer.has_windows:
+        yield (
+            "note",
+            sentence(
+                "this supposes that no response from before is pending; `sleec-verify check` looks at all histories"
+            ),
+        )
     if answer.missing:
         yield (
             "note",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from sleec_verify.report.entailment import caveats, once_done, scheduled
+from sleec_verify.report.entailment import caveats, once_done, scheduled, undecided_text
 from sleec_verify.report.escape import as_text
 from sleec_verify.report.full import finding_lines
 from sleec_verify.wording.phrases import context_text, counted, exception, has_value, listed, quoted, value_words
@@ -69,15 +69,21 @@ def decided_lines(ruleset: Ruleset, context: Context, because: ActiveClause, pal
         )
     elif rule.hedges or rule.default.hedges:
         head = sentence("{head}, and no exception applies", head=head)
-    yield sentence(
-        "{head}: {due} ({place}).", head=head, due=due_text(because.in_words()), place=_at(ruleset, because.span)
-    )
+    yield sentence("{head}: {due} ({place}).", head=head, due=due_of(because), place=_at(ruleset, because.span))
     for position, decision in enumerate(because.decisions):
         truth = truth_text(ruleset, context, _spelled(decision.formula), decision)
         yield (
             sentence("    because {truth}", truth=truth) if position == 0 else sentence("    and {truth}", truth=truth)
         )
     yield ""
+
+
+def due_of(because: ActiveClause) -> str:
+    """What an active clause requires: ```Open` is required and `Wait` is forbidden``. An obligation with alternatives
+    is required as a whole: ```Ring, or else Knock` is required``."""
+    plain = tuple(words for words, choice in zip(because.in_words(), because.choices) if not choice)
+    choices = [sentence("{names} is required", names=quoted(choice)) for choice in because.choices if choice]
+    return listed([due_text(plain), *choices]) if plain or not choices else listed(choices)
 
 
 def due_text(obligations: tuple[str, ...]) -> str:
@@ -169,7 +175,7 @@ def _at(ruleset: Ruleset, span: Span) -> str:
 
 def result_line(answer: Entailment, palette: Palette) -> str:
     """What all rules together require."""
-    if not answer.consistent:
+    if answer.consistent is False:
         conflicts = counted(len(answer.conflicts), "conflict")
         where = palette("error", sentence("The rules contradict each other here"))
         return sentence("{where} ({conflicts}), so no obligations are listed.", where=where, conflicts=conflicts)
@@ -178,10 +184,11 @@ def result_line(answer: Entailment, palette: Palette) -> str:
         if answer.prohibitions
         else ""
     )
-    required = joined(", ", answer.obligations) if answer.obligations else sentence("nothing")
-    return sentence(
+    required = [*answer.obligations, *(f"({one.words})" for one in answer.alternatives)]
+    line = sentence(
         "{heading}: {obligations}{forbidden}",
         heading=palette("strong", sentence("Required")),
-        obligations=required,
+        obligations=joined(", ", required) if required else sentence("nothing"),
         forbidden=forbidden,
     )
+    return line if answer.undecided is None else joined("; ", [line, undecided_text(answer.undecided)])

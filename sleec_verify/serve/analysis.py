@@ -103,13 +103,18 @@ def _situation(witness: Witness) -> Json:
 
 
 def _events(timeline: Timeline) -> Json:
-    """The events up to the present instant, and the values on which the obligations depend."""
+    """The events up to the present instant, and the values that matter there. Those of a complete trace are only those
+    on which the obligations depend."""
     fixed = timeline.moments if timeline.now is None else timeline.moments[: timeline.now + 1]
     return [
         {
             "time": moment.time,
             "events": list(moment.events),
-            "conditions": values_of_page({name: moment.conditions[name] for name in moment.telling}),
+            "conditions": values_of_page(
+                moment.conditions
+                if timeline.now is not None
+                else {name: moment.conditions[name] for name in moment.telling}
+            ),
         }
         for moment in fixed
     ]

@@ -55,9 +55,10 @@ class Instant(Encoder):
         formula: SharedClauses,
         measures: Mapping[str, Measure],
         used: int,
+        missing: frozenset[str] = frozenset(),
     ) -> None:
         self._formula = formula
-        super().__init__(measures, clauses=formula.clauses)
+        super().__init__(measures, missing, formula.clauses)
         self._true = formula.true
         self.used = used
         self.expanded: set[str] = set()

@@ -89,15 +89,16 @@ class Unrolling(ABC):
         self.nodes += 1
         return self.nodes - 1
 
-    def instant(self, used: int | None = None, at: int | None = None) -> int:
-        """A new instant, which the trace has if `used`, at a new node or the node `at`; returns the node."""
+    def instant(self, used: int | None = None, at: int | None = None, missing: frozenset[str] = frozenset()) -> int:
+        """A new instant, which the trace has if `used`, at a new node or the node `at`; returns the node. Comparisons
+        with the measures `missing` are false there."""
         node = self.node() if at is None else at
         used = self.formula.fresh() if used is None else used
         for other, instant in self.instants.items():
             # Two instants have different times.
             at_most, less = self.times.at_most(other, node, 0), self.times.at_most(other, node, -1)
             self.add([-used, -instant.used, -at_most, less])
-        self.instants[node] = Instant(self.formula, self.index.ruleset.measures, used)
+        self.instants[node] = Instant(self.formula, self.index.ruleset.measures, used, missing)
         if self.after is not None:
             self.add([-used, self.times.before(self.after, node)])
         if self.before is not None:

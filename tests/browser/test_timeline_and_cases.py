@@ -63,6 +63,9 @@ def test_a_finding_about_time_is_shown_on_the_timeline(serve, show) -> None:
     found.get_by_role("button", name="Show on the timeline").click()
     expect(page.get_by_role("slider", name="smoke detected")).to_be_visible()
     expect(page.locator(".windows li")).to_contain_text(["sound alarm", "call operator", "must not call operator"])
+    expect(page.locator(".timeline .refusal")).to_contain_text("it is impossible to follow every rule")
+    expect(page.locator(".lanes .impossible-from")).to_have_count(1)
+    expect(page.locator(".windows .window-state.impossible").first).to_have_text("impossible to follow")
 
 
 def test_a_case_is_saved_and_run(serve, show) -> None:

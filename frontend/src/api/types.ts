@@ -104,7 +104,10 @@ export interface DecidedRule extends Span {
 export interface SituationAnswer {
   obligations: string[];
   prohibitions: string[];
-  consistent: boolean;
+  /** Null: it is not known. */
+  consistent: boolean | null;
+  /** Obligations with alternatives, as sentences. */
+  alternatives: string[];
   rules: DecidedRule[];
   conflicts: { sentence: string }[];
   sentence: string;
@@ -145,13 +148,15 @@ export interface Window {
   to: number | null;
   rule: string;
   clause: number | null;
-  state: "open" | "fulfilled" | "missed" | "broken";
+  state: "open" | "fulfilled" | "missed" | "broken" | "impossible";
   instead_of: string | null;
 }
 
 export interface TimelineAnswer {
   windows: Window[];
   problems: string[];
+  /** The time in seconds from which it is impossible to follow every rule. */
+  impossible: number | null;
 }
 
 /** Without a situation, it is a sequence of events, or does not fit the rules. */

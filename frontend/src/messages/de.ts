@@ -109,6 +109,7 @@ export const de: Messages = {
   windowFulfilled: "erfüllt",
   windowMissed: "versäumt",
   windowBroken: "verletzt",
+  windowImpossible: "nicht zu befolgen",
   windowNot: "darf nicht: {name}",
   windowInstead: "statt {name}",
   windowSpan: "{from} bis {to}",

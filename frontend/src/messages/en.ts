@@ -107,6 +107,7 @@ export const en = {
   windowFulfilled: "fulfilled",
   windowMissed: "missed",
   windowBroken: "broken",
+  windowImpossible: "impossible to follow",
   windowNot: "must not {name}",
   windowInstead: "instead of {name}",
   windowSpan: "{from} to {to}",

@@ -109,6 +109,7 @@ export const it: Messages = {
   windowFulfilled: "adempiuto",
   windowMissed: "non adempiuto in tempo",
   windowBroken: "violato",
+  windowImpossible: "impossibile da rispettare",
   windowNot: "non deve {name}",
   windowInstead: "invece di {name}",
   windowSpan: "da {from} a {to}",

@@ -67,7 +67,7 @@ export function saveCase(name: string): Promise<boolean> {
     // The answer on the page may belong to the situation before the last switch.
     const asked = { text: goodText.value, ...situation.value, ...scope.value };
     const { obligations, prohibitions, consistent } = await ask<SituationAnswer>("situation", asked);
-    await ask("cases/add", { ...asked, name, obligations, prohibitions, conflict: !consistent });
+    await ask("cases/add", { ...asked, name, obligations, prohibitions, conflict: consistent === false });
     savedCase.value = name;
   });
 }

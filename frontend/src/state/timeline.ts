@@ -20,7 +20,7 @@ export interface Placed {
 }
 
 export const placed = signal<Placed[]>([]);
-export const answer = signal<TimelineAnswer>({ windows: [], problems: [] });
+export const answer = signal<TimelineAnswer>({ windows: [], problems: [], impossible: null });
 
 let last = 0;
 
@@ -90,14 +90,14 @@ const latest = new Latest();
 export function keepTiming(): void {
   effect(() => {
     const text = goodText.value;
-    if (text === null || events.value.length === 0) return void (answer.value = { windows: [], problems: [] });
+    if (text === null || events.value.length === 0) return void (answer.value = { windows: [], problems: [], impossible: null });
     if (server.value !== "here") return;
     latest
       .ask<TimelineAnswer>("timeline", { text, events: events.value, ...scope.value, language: language.value })
       .then((found) => found && batch(() => (answer.value = found)))
       .catch((error: unknown) => {
         if (!(error instanceof Refusal)) throw error;
-        answer.value = { windows: answer.peek().windows, problems: [error.message] };
+        answer.value = { ...answer.peek(), problems: [error.message] };
       });
   });
 }

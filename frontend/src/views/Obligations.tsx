@@ -27,7 +27,7 @@ export function Obligations() {
 function Due({ found }: { found: SituationAnswer }) {
   return (
     <>
-      {!found.consistent && (
+      {found.consistent === false && (
         <p class="contradiction">
           <span aria-hidden="true">✖</span> {t("contradiction")}
         </p>
@@ -38,10 +38,17 @@ function Due({ found }: { found: SituationAnswer }) {
         </p>
       ))}
       <div class="due">
-        {found.obligations.length > 0 && (
+        {found.obligations.length + found.alternatives.length > 0 && (
           <div class="must">
             <h3>{t("mustDo")}</h3>
-            <NameList names={found.obligations} />
+            {found.obligations.length > 0 && <NameList names={found.obligations} />}
+            {found.alternatives.length > 0 && (
+              <ul>
+                {found.alternatives.map((alternative) => (
+                  <li key={alternative}><Sentence text={alternative} /></li>
+                ))}
+              </ul>
+            )}
           </div>
         )}
         {found.prohibitions.length > 0 && (
@@ -50,7 +57,7 @@ function Due({ found }: { found: SituationAnswer }) {
             <NameList names={found.prohibitions} />
           </div>
         )}
-        {found.consistent && found.obligations.length + found.prohibitions.length === 0 && <p>{t("nothingDue")}</p>}
+        {found.consistent && found.obligations.length + found.alternatives.length + found.prohibitions.length === 0 && <p>{t("nothingDue")}</p>}
       </div>
     </>
   );

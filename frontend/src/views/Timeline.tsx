@@ -14,16 +14,17 @@ import { Scope } from "./Scope";
 import { Sentence } from "./Sentence";
 
 const SIGNS: Record<Placed["kind"], string> = { trigger: "⚑", executed: "✓", true: "◉", false: "○", wait: "…" };
-const STATES: Record<Window["state"], "windowOpen" | "windowFulfilled" | "windowMissed" | "windowBroken"> = {
+const STATES: Record<Window["state"], "windowOpen" | "windowFulfilled" | "windowMissed" | "windowBroken" | "windowImpossible"> = {
   open: "windowOpen",
   fulfilled: "windowFulfilled",
   missed: "windowMissed",
   broken: "windowBroken",
+  impossible: "windowImpossible",
 };
 const TICKS = 6;
 
 export function Timeline() {
-  const { windows, problems } = answer.value;
+  const { windows, problems, impossible } = answer.value;
   return (
     <div class="timeline">
       <p class="intro">{t("timelineIntro")}</p>
@@ -36,6 +37,7 @@ export function Timeline() {
         <div class="axis" role="group" aria-labelledby="timeline-events">
           <Ticks />
           <div class="lanes">
+            {impossible !== null && <Impossible time={impossible} />}
             {placed.value.map((one) => (
               <Marker key={one.id} one={one} />
             ))}
@@ -59,6 +61,11 @@ export function Timeline() {
       </div>
     </div>
   );
+}
+
+/** The moment from which it is impossible to follow every rule. */
+function Impossible({ time }: { time: number }) {
+  return <div class="impossible-from" style={{ left: percent(time) }} title={t("windowImpossible")} />;
 }
 
 function percent(time: number): string {
@@ -172,6 +179,7 @@ function Bar({ window }: { window: Window }) {
         {window.instead_of && ` (${t("windowInstead", { name: spoken(window.instead_of) })})`}
       </p>
       <div class="track" aria-hidden="true">
+        {window.state === "impossible" && answer.value.impossible !== null && <Impossible time={answer.value.impossible} />}
         <div class={`bar ${window.state}`} style={{ left: percent(window.from), width }} />
       </div>
     </li>

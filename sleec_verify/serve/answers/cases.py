@@ -12,6 +12,7 @@ from sleec_verify.conformance.cases.reader import UnfitCase, as_in_cases, read_e
 from sleec_verify.conformance.scenarios.expectations import unexpected
 from sleec_verify.conformance.scenarios.scenario import Scenario
 from sleec_verify.entailment.entailment import entail
+from sleec_verify.report.entailment import undecided_text
 from sleec_verify.report.explanation import due_text
 from sleec_verify.results.json_values import Json
 from sleec_verify.serve.answers.situation import context_of
@@ -117,14 +118,16 @@ def _differences(ruleset: Ruleset, case: Case) -> Iterator[str]:
     answer = entail(ruleset, case.context())
     if answer.broken_assumptions:
         yield sentence("an assumption or relation excludes the situation, so the rules say nothing about it")
+    elif answer.undecided is not None:
+        yield undecided_text(answer.undecided)
     elif not answer.consistent and not case.conflict:
         yield sentence("the rules contradict each other in the situation")
     elif answer.consistent and case.conflict:
         yield sentence("the rules do not contradict each other in the situation")
     elif answer.consistent:
-        yield from _compared(case.obligations, answer.obligations, False)
+        yield from _compared(case.obligations, answer.with_choices(case.obligations, negated=False), False)
         if case.prohibitions is not None:
-            yield from _compared(case.prohibitions, answer.prohibitions, True)
+            yield from _compared(case.prohibitions, answer.with_choices(case.prohibitions, negated=True), True)
 
 
 def _compared(expected: tuple[str, ...], found: tuple[str, ...], forbidden: bool) -> Iterator[str]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from sleec_runtime.model import Atom, Comparison, Context, Formula, Rule, Ruleset
 from sleec_verify.entailment.answer import ActiveClause, ConditionValue
-from sleec_verify.report.explanation import due_text, truth_text
+from sleec_verify.report.explanation import due_of, truth_text
 from sleec_verify.wording.phrases import occurring, quoted
 from sleec_verify.wording.plain_language import condition_words
 from sleec_verify.wording.sentence import joined, sentence
@@ -17,7 +17,7 @@ def decided_steps(ruleset: Ruleset, context: Context, because: ActiveClause) -> 
     yield occurring([ruleset.by_label[because.rule].trigger])
     for decision in because.decisions:
         yield _truth(ruleset, context, decision)
-    yield sentence("so {due}", due=due_text(because.in_words()))
+    yield sentence("so {due}", due=due_of(because))
 
 
 def guarded_steps(ruleset: Ruleset, context: Context, rule: Rule, guard: Formula) -> Iterator[str]:

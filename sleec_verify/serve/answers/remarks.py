@@ -6,7 +6,8 @@ from collections.abc import Iterator, Sequence
 
 from sleec_runtime.model import Comparison, Context, Ruleset, formulas_of, leaves, measures_of
 from sleec_verify.entailment.answer import ConsequenceStep, Entailment, ScheduledResponse
-from sleec_verify.report.explanation import due_text
+from sleec_verify.report.entailment import undecided_text
+from sleec_verify.report.explanation import due_of
 from sleec_verify.report.schedule import when_text
 from sleec_verify.wording.phrases import given, listed, quoted
 from sleec_verify.wording.sentence import plural, sentence
@@ -14,6 +15,8 @@ from sleec_verify.wording.sentence import plural, sentence
 
 def remarks(ruleset: Ruleset, context: Context, answer: Entailment) -> Iterator[str]:
     """A sentence for each remark, the most important ones first."""
+    if answer.undecided is not None:
+        yield undecided_text(answer.undecided)
     yield from _exclusion(ruleset, answer)
     for event, forbidding in answer.at_odds:
         clauses = listed(map(quoted, forbidding))
@@ -25,8 +28,8 @@ def remarks(ruleset: Ruleset, context: Context, answer: Entailment) -> Iterator[
             clauses=clauses,
         )
     yield from _windows(answer.schedule)
-    if answer.timed:
-        yield sentence("This answer does not look for contradictions at later times. The findings do.")
+    if answer.has_windows:
+        yield sentence("This supposes that no response from before is pending. The findings look at all histories.")
     yield from _consequences(answer.chain)
     missing = [quoted(name) for name in answer.missing if name in _measures(ruleset, context)]
     if missing:
@@ -83,7 +86,7 @@ def _consequences(chain: Sequence[ConsequenceStep]) -> Iterator[str]:
                 "once the robot does {event}, rule {rule} applies: {due}",
                 event=quoted(step.name),
                 rule=quoted(because.rule),
-                due=due_text(because.in_words()),
+                due=due_of(because),
             )
             yield from _consequences([one for one in done if one.leads_on or one.forbidden])
         if step.forbidden:

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from sleec_runtime.model import Context
 from sleec_verify.encoding.budget import Undecided, for_file
-from sleec_verify.encoding.trace_scope import has_chains, speaks_of_traces
 from sleec_verify.entailment.situation_search import (
     with_clause,
     with_different_readings,
@@ -57,7 +56,7 @@ def _asked(index: RulesetIndex, question: Body) -> tuple[str, Context | None]:
         name = question.text("obligation")
         if name not in index.ruleset.obligations:
             raise BadRequest(f"no obligation is called {quoted(name)}")
-        return _required(index, name), with_obligation(index, name)
+        return _required(name), with_obligation(index, name)
     if kind == "together":
         labels = [_label(index, label) for label in question.texts("rules")]
         if not labels:
@@ -78,11 +77,7 @@ def _asked(index: RulesetIndex, question: Body) -> tuple[str, Context | None]:
     raise BadRequest(f"no question is called {quoted(kind)}", "ask obligation, together, exception or readings")
 
 
-def _required(index: RulesetIndex, name: str) -> str:
-    if speaks_of_traces(index.ruleset) or has_chains(index.ruleset):
-        return sentence(
-            "{name} is required, and the responses that are due at once do not contradict each other", name=quoted(name)
-        )
+def _required(name: str) -> str:
     return sentence("{name} is required without a contradiction", name=quoted(name))
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from sleec_runtime.model import READINGS, Context, Reading, Ruleset
 from sleec_verify.conformance.cases.fields import values_of
-from sleec_verify.entailment.answer import ActiveClause, Entailment
+from sleec_verify.entailment.answer import ActiveClause, Alternative, DueLiteral, Entailment
 from sleec_verify.entailment.explanation import explain
 from sleec_verify.entailment.situation_text import parse_situation
 from sleec_verify.entailment.triggered_part import triggered_part
@@ -18,6 +18,8 @@ from sleec_verify.serve.answers.reasons import decided_steps, guarded_steps
 from sleec_verify.serve.answers.remarks import remarks
 from sleec_verify.serve.body import BadRequest, Body
 from sleec_verify.serve.session import Session
+from sleec_verify.wording.phrases import listed, quoted
+from sleec_verify.wording.sentence import sentence
 
 
 def situation(session: Session, body: Body) -> dict[str, Json]:
@@ -34,11 +36,29 @@ def situation(session: Session, body: Body) -> dict[str, Json]:
         "obligations": list(answer.obligations),
         "prohibitions": list(answer.prohibitions),
         "consistent": answer.consistent,
+        "alternatives": [_alternative(one) for one in answer.alternatives],
         "rules": steps + _inactive(ruleset, context, answer),
         "conflicts": [finding_of_page(finding) for finding in answer.conflicts],
         "sentence": result_line(answer, PLAIN),
         "notes": [*remarks(ruleset, context, answer)],
     }
+
+
+def _alternative(alternative: Alternative) -> str:
+    """```ring` within 5 minutes, or else `knock```"""
+    first, *others = (
+        listed([quoted(_literal(one)) for one in option]) if option else sentence("nothing")
+        for option in alternative.options
+    )
+    for other in others:
+        first = sentence("{response}, or else {other}", response=first, other=other)
+    return first
+
+
+def _literal(literal: DueLiteral) -> str:
+    """``NOT ring within 5 minutes``"""
+    name = f"NOT {literal.name}" if literal.negated else literal.name
+    return f"{name} {literal.when}".rstrip()
 
 
 def scoped(ruleset: Ruleset, body: Body) -> Ruleset:

@@ -176,7 +176,7 @@ def test_a_situation_that_relations_rule_out_is_told(when: str, given: str) -> N
     relation that asks for it says nothing."""
     ruleset = parse(RELATED)
     context = parse_situation(ruleset, when, given)
-    lasting = (" PRECEDES ", " FOR ")
+    lasting = (" PRECEDES ",)
     told = {ruleset.source.place(law.span).line for law in entail(ruleset, context).broken_assumptions}
     instant = Instant(0, context.triggers, {"n": 0, **context.conditions})
     found = {ruleset.source.place(b.statement.span).line for b in violations_so_far(ruleset, Trace((instant,)))}

@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from tests.support.pages import page_on
 
 TEXT = """MEASURE Age: number
@@ -116,7 +118,28 @@ def test_a_text_that_was_checked_need_not_be_sent_again(tmp_path: Path) -> None:
 
 
 def test_rules_with_time_refer_to_the_findings(tmp_path: Path) -> None:
-    text = "RULE a\nWHEN Bell THEN Open WITHIN 9 seconds\nRULE b\nWHEN Bell THEN NOT Open WITHIN 1 minute\n"
-    said = "This answer does not look for contradictions at later times. The findings do."
+    text = "RULE a\nWHEN Bell THEN Open WITHIN 9 seconds\n"
+    said = "This supposes that no response from before is pending. The findings look at all histories."
     assert said in asked(tmp_path, text)["notes"]
     assert said not in asked(tmp_path)["notes"]
+
+
+def test_a_contradiction_at_later_times_is_told(tmp_path: Path) -> None:
+    text = "RULE a\nWHEN Bell THEN Open WITHIN 9 seconds\nRULE b\nWHEN Bell THEN NOT Open WITHIN 1 minute\n"
+    answer = asked(tmp_path, text)
+    assert answer["consistent"] is False
+    assert answer["obligations"] == []
+    assert len(answer["conflicts"]) == 1
+
+
+def test_alternatives_are_told_as_a_whole(tmp_path: Path) -> None:
+    answer = asked(tmp_path, "RULE a\nWHEN Bell THEN Open WITHIN 9 seconds OTHERWISE NOT Ring\n")
+    assert (answer["obligations"], answer["prohibitions"]) == ([], [])
+    assert answer["alternatives"] == ["`Open within 9 seconds`, or else `NOT Ring`"]
+
+
+def test_what_nothing_confirms_is_unknown(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sleec_verify.entailment.over_time.none_complies", lambda *_: None)
+    answer = asked(tmp_path, "RULE a\nWHEN Bell THEN Open\nRULE b\nWHEN Bell THEN NOT Open WITHIN 1 minute\n")
+    assert answer["consistent"] is None
+    assert answer["notes"][0].startswith("it is not known whether the rules contradict each other here")

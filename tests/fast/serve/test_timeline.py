@@ -75,3 +75,50 @@ def test_a_length_without_a_value_is_a_problem(page: Page) -> None:
 )
 def test_bad_events(page: Page, events: object) -> None:
     assert page.post("timeline", 400, text=TEXT, events=events)["message"]
+
+
+CLASH = """ASSUME the ward is open OR the ward is closed
+RULE dizzy
+WHEN the patient is dizzy THEN call the nurse WITHIN 2 minutes
+RULE round
+WHEN the round starts THEN NOT call the nurse WITHIN 10 minutes
+"""
+
+
+def test_a_conflict_is_shown_as_in_the_report(tmp_path: Path) -> None:
+    page = page_on(tmp_path, CLASH)
+    (finding,) = (one for one in page.post("check", text=CLASH)["findings"] if one["code"] == "SLEEC101")
+    events = [
+        {"time": one["time"], "triggers": one["events"], "executed": [], "conditions": one["conditions"]}
+        for one in finding["timeline"]
+    ]
+    answer: Any = page.post("timeline", text=CLASH, events=events)
+    assert answer["impossible"] == 0
+    assert answer["problems"] == [
+        "from the first moment on, it is impossible to follow every rule: `dizzy` and `round`"
+    ]
+    assert [(one["rule"], one["state"]) for one in answer["windows"]] == [
+        ("dizzy", "impossible"),
+        ("round", "impossible"),
+    ]
+
+
+def test_what_can_still_be_followed_is_pending(tmp_path: Path) -> None:
+    page = page_on(tmp_path, CLASH)
+    dizzy, round_ = event(0, "the patient is dizzy"), event(60, "the round starts")
+    answer: Any = page.post("timeline", text=CLASH, events=[dizzy])
+    assert (answer["impossible"], answer["problems"]) == (None, [])
+    answer = page.post("timeline", text=CLASH, events=[dizzy, round_])
+    assert answer["impossible"] == 60
+    assert answer["problems"] == ["after 1 minute, it is impossible to follow every rule: `dizzy` and `round`"]
+    done = event(30, executed=("call the nurse",))
+    answer = page.post("timeline", text=CLASH, events=[dizzy, done, round_])
+    assert (answer["impossible"], answer["problems"]) == (None, [])
+
+
+def test_what_nothing_confirms_is_not_said(page: Page, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr("sleec_verify.entailment.continuation.none_complies", lambda *_: None)
+    events = [event(0, "the patient is dizzy", "the round starts")]
+    answer: Any = page_on(tmp_path, CLASH).post("timeline", text=CLASH, events=events)
+    assert answer["impossible"] is None
+    assert answer["problems"][0].startswith("it is not known whether every rule can be followed")

@@ -128,6 +128,11 @@ class Explicit:
     def first(self) -> State:
         return State(tuple(frozenset[Demand]() for _ in self.rules), frozenset(), frozenset())
 
+    def before(self, events: Events) -> State:
+        """The first state, where what has to precede `events` has occurred."""
+        preceding = frozenset(p.left for p in self._meaning.precedences if p.right in events)
+        return self.first._replace(occurred=preceding)
+
     def after_silence(self, state: State) -> State:
         pending = tuple(strongest({progress(d, NOTHING) for d in demands} - {True}) for demands in state.pending)
         return State(pending, silence(state.lastings), state.occurred)
@@ -249,10 +254,10 @@ class Explicit:
             for events in self.subsets:
                 if events and events <= self.inputs:
                     for values in range(len(self.values)):
-                        found |= self._minimal(state, events, values)
+                        found |= self.minimal(state, events, values)
         return {frozenset(self.rules[number].label for number in rules) for rules in found}
 
-    def _minimal(self, state: State, events: Events, values: int) -> set[frozenset[int]]:
+    def minimal(self, state: State, events: Events, values: int) -> set[frozenset[int]]:
         """The minimal sets of rules without a complying response in one situation, of those that it is one for."""
         speaking = [
             n
