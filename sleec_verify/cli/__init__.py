@@ -24,8 +24,9 @@ COMPLETION = "_SLEEC_VERIFY_COMPLETE"
 
 def main() -> NoReturn:
     """Run the command line and exit. Errors of the user and closed pipes show no traceback."""
-    # Almost all objects live until the end of the run; garbage collection would be 5 % of a short run.
-    gc.set_threshold(100_000, 50, 50)
+    # Collect more rarely than by default, which would be 5 % of a short run, but before garbage fills the memory: each
+    # change that a search of repairs tries makes solvers and questions.
+    gc.set_threshold(10_000, 10, 10)
     for stream in (sys.stdout, sys.stderr):
         # The encoding of the terminal may not contain all characters of the output.
         if isinstance(stream, TextIOWrapper):

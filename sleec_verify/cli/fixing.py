@@ -135,9 +135,12 @@ def _left(
 ) -> Iterator[str]:
     """A line for each removal that a person decides on, with what hides an exception that never applies."""
     results = kept_or_new(ruleset, scope, cache, progress)
-    findings = [one for one in CheckedRuleset(ruleset, results).deduplicated if one.code in OFFERED]
+    findings = CheckedRuleset(ruleset, results).deduplicated
+    if not any(one.code in OFFERED for one in findings):
+        return
     searched = numbered_repairs(findings, RepairSearch(ruleset, results, scope), progress)
-    for finding, removal in offered(ruleset, results, searched):
+    of_code = (one for one in searched if one.finding.code in OFFERED)
+    for finding, removal in offered(ruleset, results, of_code):
         names = hiding(ruleset, finding, scope)
         reason = f"{listed(names)} {'hides' if len(names) == 1 else 'hide'} it" if names else finding.note
         yield (

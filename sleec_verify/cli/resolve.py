@@ -61,9 +61,14 @@ def is_terminal() -> bool:
 @as_text
 def _plan(conflicts: Conflicts, path: str, palette: Palette) -> Iterator[str]:
     from sleec_verify.repairs.numbering import numbered_repairs
+    from sleec_verify.report.outcome import CheckedRuleset
 
     source = conflicts.ruleset.source
-    for found in numbered_repairs(conflicts.findings, conflicts.search):
+    # The numbers of repairs are those of a report, which has all findings.
+    every = CheckedRuleset(conflicts.ruleset, conflicts.results).deduplicated
+    for found in numbered_repairs(every, conflicts.search):
+        if found.finding not in conflicts.findings:
+            continue
         yield from finding_lines(found.finding, source, palette, found)
         if found.repairs:
             yield f"proposal: sleec-verify check --fix {found.repairs[0].identifier} {path}"

@@ -157,14 +157,17 @@ def for_file(characters: int, interrupt: Callable[[], None] | None = None) -> It
     if _current.get() is not None:
         yield
         return
-    steps = FILE + PER_CHARACTER * characters
-    with _using(
-        Budget(_FILE_SPENT, steps) if interrupt is None else InterruptibleBudget(interrupt, _FILE_SPENT, steps)
-    ):
+    steps = steps_for(characters)
+    with _using(Budget(FILE_SPENT, steps) if interrupt is None else InterruptibleBudget(interrupt, FILE_SPENT, steps)):
         yield
 
 
-_FILE_SPENT = sentence("the limit of steps for one file is reached; use --timeout SECONDS to allow more")
+def steps_for(characters: int) -> int:
+    """The budget for a text with this number of characters, in steps."""
+    return FILE + PER_CHARACTER * characters
+
+
+FILE_SPENT = sentence("the limit of steps for one file is reached; use --timeout SECONDS to allow more")
 
 
 def begin() -> None:

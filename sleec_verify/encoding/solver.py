@@ -5,10 +5,13 @@ An answer is yes, no, or None if the solver gave up.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from threading import current_thread, main_thread
 from types import TracebackType
 from typing import NamedTuple, Protocol
+from weakref import ReferenceType, ref
 
 import pysolvers
 
@@ -16,7 +19,7 @@ from sleec_verify.encoding.budget import Budget, Undecided, current, spend
 from sleec_verify.results.conflict_freedom import FreeComponent
 from sleec_verify.results.found_trace import FoundTrace
 
-__all__ = ["CONFLICT_BUDGET", "MiniSat", "Recorder", "Refutation", "Solver", "Undecided"]
+__all__ = ["CONFLICT_BUDGET", "MiniSat", "Recorder", "Refutation", "Solver", "Undecided", "released"]
 
 CONFLICT_BUDGET = 500_000
 """The maximal number of conflicts of a question. Questions about rules that people write need a few dozen."""
@@ -94,6 +97,28 @@ class Recorder(Protocol):
         ...
 
 
+_made: ContextVar[list[ReferenceType[MiniSat]] | None] = ContextVar("made", default=None)
+
+
+@contextmanager
+def released() -> Iterator[None]:
+    """Free the memory of all solvers that the block makes, at its end. They cannot be used afterwards.
+
+    Questions about traces refer to themselves, so their solvers would stay until a garbage collection, which knows
+    nothing of their size.
+    """
+    made: list[ReferenceType[MiniSat]] = []
+    token = _made.set(made)
+    try:
+        yield
+    finally:
+        _made.reset(token)
+        for reference in made:
+            solver = reference()
+            if solver is not None:
+                solver.close()
+
+
 class MiniSat:
     """MiniSat 2.2 of python-sat, which is the fastest to create and to close, and most questions are small.
 
@@ -109,6 +134,9 @@ class MiniSat:
         # Signals reach only the main thread, and only there the solver may set its handler.
         self._interruptible = int(current_thread() is main_thread())
         self._model: list[int] = []
+        made = _made.get()
+        if made is not None:
+            made.append(ref(self))
         self.add(clauses)
 
     def add(self, clauses: Collection[Sequence[int]]) -> None:

@@ -40,27 +40,31 @@ def chosen_repairs(
     Raises:
         UnknownRepair: there is no such repair, or a timeout makes the numbers uncertain.
     """
-    chosen = []
-    for code in dict.fromkeys(code for code, _ in identifiers):
-        of_code = [finding for finding in findings if finding.code == code]
-        if not of_code:
+    wanted: dict[str, list[int]] = {}
+    for code, number in dict.fromkeys(identifiers):
+        wanted.setdefault(code, []).append(number)
+    for code in wanted:
+        if all(finding.code != code for finding in findings):
             raise _unknown_code(code, path)
-        numbers = dict.fromkeys(number for named, number in identifiers if named == code)
-        repairs: list[NumberedRepair] = []
-        for found in numbered_repairs(of_code, search, progress):
-            repairs += found.repairs
-            if found.undecided is not None and ends_by_time():
-                raise UnknownRepair(f"the repairs for {code} are not complete: {found.undecided}", "raise --timeout")
-            if len(repairs) >= max(numbers):
-                break
+    # Repairs have the numbers of a report only after the same search.
+    found: dict[str, list[NumberedRepair]] = {code: [] for code in wanted}
+    for one in numbered_repairs(findings, search, progress):
+        code = one.finding.code
+        if code not in found:
+            continue
+        found[code] += one.repairs
+        if one.undecided is not None and ends_by_time():
+            raise UnknownRepair(f"the repairs for {code} are not complete: {one.undecided}", "raise --timeout")
+        if all(len(found[code]) >= max(numbers) for code, numbers in wanted.items()):
+            break
+    for code, numbers in wanted.items():
         for number in numbers:
-            if number > len(repairs):
+            if number > len(found[code]):
                 raise UnknownRepair(
-                    f"there is no repair {code}:{number}: {path} has {counted(len(repairs), 'repair')} for {code}",
+                    f"there is no repair {code}:{number}: {path} has {counted(len(found[code]), 'repair')} for {code}",
                     "`sleec-verify check --fixes` lists the repairs",
                 )
-            chosen.append(repairs[number - 1])
-    return chosen
+    return [found[code][number - 1] for code, number in dict.fromkeys(identifiers)]
 
 
 def _unknown_code(code: str, path: str) -> UnknownRepair:

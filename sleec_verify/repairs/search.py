@@ -8,7 +8,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from sleec_runtime.errors import SleecError, Unsayable
-from sleec_runtime.model import Reading, Ruleset, Statement
+from sleec_runtime.model import Reading, Ruleset, Source, Statement
 from sleec_verify.encoding.scope import WHOLE, Scope
 from sleec_verify.repairs.comments import loses_comment
 from sleec_verify.repairs.edit import edited, edits_between
@@ -43,6 +43,11 @@ class RepairSearch:
         self._verification = Verification(ruleset, results, scope)
         self.undecided: str | None = None
         """Why the last search of repairs may not have found all, if it may not."""
+
+    @property
+    def source(self) -> Source:
+        """The text that the repairs change."""
+        return self._ruleset.source
 
     def repairs(self, finding: Finding) -> list[Repair]:
         """The repairs, those that take away the least first (`_order`)."""
@@ -95,6 +100,7 @@ class RepairSearch:
         names that the change makes superfluous are removed.
         """
         is_giving_way = True
+        seen = {finding.rules}
         titles = [candidate.title]
         for _ in range(_MOST_STEPS):
             try:
@@ -107,7 +113,9 @@ class RepairSearch:
                 step = _consequence(rejected)
                 if step is not None:
                     is_giving_way = False
-                elif is_giving_way:
+                elif is_giving_way and rejected.appeared is not None and rejected.appeared.rules not in seen:
+                    # A rule that gives way to the same rules again would go on without end.
+                    seen.add(rejected.appeared.rules)
                     step = _again(rejected, finding, operator, candidate.gives_way)
                 if step is None:
                     return None

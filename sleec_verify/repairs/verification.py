@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Container, Hashable, Iterator, Sequence
+from collections.abc import Callable, Collection, Container, Hashable, Iterator, Sequence
 from dataclasses import replace
 
 from sleec_runtime.errors import LanguageError
@@ -13,15 +13,25 @@ from sleec_verify.checks import COSTLY, Checking, checks_for
 from sleec_verify.checks.conflict import CONFLICT
 from sleec_verify.encoding.budget import spend
 from sleec_verify.encoding.scope import WHOLE, Scope
+from sleec_verify.encoding.solver import released
+from sleec_verify.encoding.trace_scope import Untimed
+from sleec_verify.query.ruleset_index import RulesetIndex
 from sleec_verify.repairs.edit import OffsetMap, edited, in_order, inverse
 from sleec_verify.repairs.repair import Candidate
+from sleec_verify.replay.traces import replay_found
 from sleec_verify.results.finding import CheckResult, Finding, Unknown
+from sleec_verify.results.found_trace import FoundTrace
+from sleec_verify.traces.known_traces import KnownTraces, using
 from sleec_verify.wording.sentence import sentence
 
 Identity = tuple[Hashable, ...]
 """What makes a finding the same before and after a change. A conflict is known by its rules and the places of its
 clauses. Any other finding is known by its own place, because the rules that it names may be only those of the situation
 that it shows."""
+
+
+_MOST_REMEMBERED = 2
+"""The sets of contradicting rules that are remembered for a finding."""
 
 
 def is_read_otherwise(ruleset: Ruleset) -> bool:
@@ -56,6 +66,11 @@ class Verification:
         self._is_read_otherwise = is_read_otherwise(ruleset)
         self._names = [result.name for result in results]
         self._unknown = {result.name for result in results if isinstance(result.verdict, Unknown)}
+        self._known_traces = KnownTraces(_is_shown)
+        self._checked_texts: dict[str, tuple[Ruleset, tuple[CheckResult, ...]]] = {}
+        """The texts that passed all checks for some finding."""
+        self._contradicting: dict[Identity, list[frozenset[str]]] = {}
+        """For each finding, the last rules that contradicted each other after a change."""
         self._found = Counter(_identity(ruleset, f) for result in results for f in result.findings)
 
     def repaired(self, finding: Finding, candidate: Candidate) -> tuple[Ruleset, tuple[CheckResult, ...]]:
@@ -68,17 +83,16 @@ class Verification:
             OutOfBudget: the budget is spent.
             Rejected: the change is not a repair, or it cannot be shown to be one.
         """
+        with released(), using(self._known_traces):
+            return self._checked(finding, candidate)
+
+    def _checked(self, finding: Finding, candidate: Candidate) -> tuple[Ruleset, tuple[CheckResult, ...]]:
         source = self._ruleset.source
         spend(len(source.text))
         edits = in_order(candidate.edits)
-        try:
-            new = parse(edited(source.text, edits), source.path)
-        except LanguageError as error:
-            raise Rejected(f"the text is not a ruleset: {error.problems[0].message}") from None
-        if new.dialect != self._ruleset.dialect:
-            raise Rejected("the text is no longer in its dialect of the DSL")
-        if self._is_read_otherwise:
-            new = new.read_as(self._ruleset.reading)
+        text = edited(source.text, edits)
+        known = self._checked_texts.get(text)
+        new = self._parsed(text) if known is None else known[0]
         places = _Places(self._ruleset, new, OffsetMap(inverse(source.text, edits)))
         if not places.same_text_is_same_meaning():
             raise Rejected("a part of the text that does not change would be read differently")
@@ -91,14 +105,57 @@ class Verification:
                 why = "the finding stays" if identity == target else f"{one.code} appears: {one.message}"
                 raise Rejected(why, new, one)
 
+        if known is not None:
+            for result in known[1]:
+                more = Counter(places.identity(one) for one in result.findings) - allowed
+                for one in result.findings:
+                    examine(one, more)
+            return known
+        # Rules that contradict each other on their own do so among other rules, with rare exceptions. These small
+        # questions reject most candidates: about the rules of the finding, and those that contradicted each other after
+        # another change.
+        contradicting = self._contradicting.setdefault(target, [])
         if finding.check == CONFLICT.name:
-            # Rules that contradict each other on their own do so among other rules, with rare exceptions. This small
-            # question rejects most candidates.
-            alone = self._checking(places.only(finding.rules)).result(finding.check)
-            for one in alone.findings:
+            for one in self._among(places, finding.rules):
                 if places.identity(one) == target:
                     examine(one)
-        checking = self._checking(new, examine)
+        for labels in contradicting:
+            for one in self._among(places, labels):
+                examine(one)
+        try:
+            results = self._results(new, finding, places, examine, allowed)
+        except Rejected as rejected:
+            appeared = rejected.appeared
+            if appeared is not None and appeared.check == CONFLICT.name and len(appeared.rules) > 1:
+                contradicting.insert(0, frozenset(map(places.earlier, appeared.rules)))
+                del contradicting[_MOST_REMEMBERED:]
+            raise
+        self._checked_texts[text] = new, results
+        return new, results
+
+    def _parsed(self, text: str) -> Ruleset:
+        try:
+            new = parse(text, self._ruleset.source.path)
+        except LanguageError as error:
+            raise Rejected(f"the text is not a ruleset: {error.problems[0].message}") from None
+        if new.dialect != self._ruleset.dialect:
+            raise Rejected("the text is no longer in its dialect of the DSL")
+        return new.read_as(self._ruleset.reading) if self._is_read_otherwise else new
+
+    def _among(self, places: _Places, labels: Collection[str]) -> tuple[Finding, ...]:
+        """The conflicts of some rules on their own."""
+        return self._checking(places.only(labels)).result(CONFLICT.name).findings
+
+    def _results(
+        self,
+        new: Ruleset,
+        finding: Finding,
+        places: _Places,
+        examine: Callable[[Finding, Container[Identity]], None],
+        allowed: Counter[Identity],
+    ) -> tuple[CheckResult, ...]:
+        """The results of all checks. Raises `Rejected` as `repaired` does."""
+        checking = self._checking(new, lambda one: examine(one, ()))
         # Some texts leave no question open: one that states its reading can be read in one way only.
         settled = set(checks_for(self._ruleset)) - set(checks_for(new))
         # The cheap questions first, and of the others that of the finding: they reject most candidates.
@@ -119,7 +176,7 @@ class Verification:
                 more = Counter(places.identity(one) for one in result.findings) - allowed
                 for one in result.findings:
                     examine(one, more)
-        return new, tuple(found)
+        return tuple(found)
 
     def _checking(self, ruleset: Ruleset, examine: Callable[[Finding], None] | None = None) -> Checking:
         scope = self._scope
@@ -159,17 +216,21 @@ class _Places:
         """The identity of a finding of the new rules as one of the old rules; a new place is None."""
         if finding.check != CONFLICT.name:
             return finding.code, self._back.after(finding.span.start)
-        rules = frozenset(self._labels.get(label, label) for label in finding.rules)
+        rules = frozenset(map(self.earlier, finding.rules))
         return finding.code, rules, frozenset(map(self._back.after, _clause_places(self._new, finding)))
+
+    def earlier(self, label: str) -> str:
+        """The label of a rule before the change."""
+        return self._labels.get(label, label)
 
     def only(self, kept: Container[str]) -> Ruleset:
         """The new ruleset with only those rules whose earlier labels are `kept`."""
-        rules = (
-            one
-            for one in self._new.statements
-            if not isinstance(one, Rule) or self._labels.get(one.label, one.label) in kept
-        )
+        rules = (one for one in self._new.statements if not isinstance(one, Rule) or self.earlier(one.label) in kept)
         return replace(self._new, statements=tuple(rules))
+
+
+def _is_shown(ruleset: Ruleset, untimed: Untimed, found: FoundTrace) -> bool:
+    return replay_found(RulesetIndex(ruleset, untimed=untimed), found)
 
 
 def _identity(ruleset: Ruleset, finding: Finding) -> Identity:

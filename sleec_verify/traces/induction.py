@@ -42,6 +42,9 @@ class InductiveModel(TraceModel):
     def _impossible(self, counting: frozenset[str]) -> frozenset[str]:
         known = self.index.impossible
         if counting not in known:
+            every = frozenset([*(rule.label for rule in self.index.ruleset.rules), *self.index.relation_by_key])
+            if counting < every and not self._impossible(every):
+                return frozenset()
             # With fewer rules and relations, no further events are impossible.
             more = [events for others, events in known.items() if counting < others]
             among = frozenset.intersection(*more) if more else {*self.index.by_trigger, *self.index.relations_of_event}

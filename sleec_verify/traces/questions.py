@@ -16,6 +16,7 @@ from sleec_verify.results.found_trace import FoundTrace, Shows
 from sleec_verify.traces.cone import cone
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.induction import InductiveModel
+from sleec_verify.traces.known_traces import known_traces
 from sleec_verify.traces.model import TraceModel
 from sleec_verify.traces.relations import names_in, names_of_rule
 from sleec_verify.traces.trace import TraceInstant
@@ -181,14 +182,21 @@ def _ask(
     Raises `Undecided`.
     """
     begin()
+    asked = FoundTrace(index.root.ruleset, shown.shows, ((shown.label, shown.number),), (), shown.changed)
+    known = known_traces() if index.recorder is None else None
+    if known is not None:
+        found = known.still_shown(asked, index.untimed)
+        if found is not None:
+            return Answer(tuple(TraceInstant(*instant) for instant in found.instants))
     model = InductiveModel(index) if rules is None else TraceModel(index, rules)
     required = list(what(model, model.instant(model.formula.true)))
     counting = [rule.label for rule in index.rules if rule is not but] + list(index.relation_by_key)
     if model.ask(*required, counting=counting):
         trace = _trace(model)
         if index.recorder is not None:
-            about = ((shown.label, shown.number),)
-            index.recorder.found(FoundTrace(index.root.ruleset, shown.shows, about, trace, shown.changed))
+            index.recorder.found(asked._replace(instants=trace))
+        if known is not None:
+            known.remember(asked._replace(instants=trace))
         return Answer(trace)
     return Answer(None, tuple(_minimal(model, required)), model)
 

@@ -9,11 +9,9 @@ from sleec_verify.repairs.numbering import FindingRepairs, numbered_repairs
 from sleec_verify.repairs.operators import OPERATORS
 from sleec_verify.repairs.search import RepairSearch
 from sleec_verify.report.outcome import CheckedRuleset
-from sleec_verify.results.finding import SEVERITIES
 from sleec_verify.wording.sentence import sentence
 
-_ENDED = sentence("the search ended at its limit; `sleec-verify check --fixes` searches without it")
-_NOT_SEARCHED = sentence("the search ended before this finding; `sleec-verify check --fixes` searches without a limit")
+_ENDED = sentence("the search ended at its limit; `sleec-verify check --fixes` searches longer")
 
 
 def limit(rules: int) -> int:
@@ -25,18 +23,9 @@ def limit(rules: int) -> int:
 def repairs_to_show(
     outcome: CheckedRuleset, scope: Scope, progress: Progress | None = None
 ) -> tuple[FindingRepairs, ...]:
-    """The repairs of each finding that an operator may repair, in the order of the text. Errors come first in the
-    search."""
+    """The repairs of each finding that an operator may repair, in the order of the text."""
     findings = [one for one in outcome.deduplicated if one.code in OPERATORS]
-    order = sorted(range(len(findings)), key=lambda number: SEVERITIES.index(findings[number].severity))
-    found: dict[int, FindingRepairs] = {}
-    with limited_to_steps(limit(len(outcome.ruleset.rules)), _ENDED) as budget:
+    with limited_to_steps(limit(len(outcome.ruleset.rules)), _ENDED):
         search = RepairSearch(outcome.ruleset, outcome.results, scope)
-        repairs = numbered_repairs([findings[number] for number in order], search, progress)
-        for number in order:
-            if budget.is_spent():
-                break
-            found[number] = next(repairs)
-    return tuple(
-        found.get(number, FindingRepairs(finding, (), _NOT_SEARCHED)) for number, finding in enumerate(findings)
-    )
+        searched = {id(found.finding): found for found in numbered_repairs(findings, search, progress)}
+    return tuple(searched[id(finding)] for finding in findings)

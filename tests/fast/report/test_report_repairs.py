@@ -40,7 +40,7 @@ def test_every_finding_has_its_own_repairs() -> None:
 
 
 def test_errors_are_first_if_the_steps_are_not_sufficient(monkeypatch: pytest.MonkeyPatch, cli: Cli) -> None:
-    monkeypatch.setattr(module, "limit", lambda rules: 4_000)
+    monkeypatch.setattr(module, "limit", lambda rules: 1_900)
     found = outcome()
     shown = numbered(found._replace(repairs=repairs_to_show(found, WHOLE)))
     (warning,) = (one for one in shown if one.finding.severity == "warning")
