@@ -106,7 +106,8 @@ class Dialogue:
         if search.undecided is not None:
             write_line(f"{self._palette('unknown', 'unknown')} There may be more repairs: {search.undecided}")
         if not repairs:
-            write_line("No repair is found. Skip this conflict, or change the rules by hand.")
+            why = "" if search.reason is None else f": {search.reason}"
+            write_line(f"No repair is found{why}. Skip this conflict, or change the rules by hand.")
         for number, repair in enumerate(repairs, 1):
             write_line(f"{self._palette('strong', f'{number:>3}')}  {repair.candidate.title}")
             write_line(f"     {self._palette('faint', effect_in_words(repair))}")

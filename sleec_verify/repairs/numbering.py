@@ -26,11 +26,13 @@ class NumberedRepair(NamedTuple):
 
 
 class FindingRepairs(NamedTuple):
-    """A finding and its repairs, the smallest change first. `undecided` says why there may be more, if there may."""
+    """A finding and its repairs, what takes away least first. `undecided` says why there may be more, if there may, and
+    `reason` why there is none, if there is none."""
 
     finding: Finding
     repairs: tuple[NumberedRepair, ...]
     undecided: str | None = None
+    reason: str | None = None
 
 
 def numbered_repairs(
@@ -49,12 +51,13 @@ def numbered_repairs(
         repairs = []
         found: list[Repair] = []
         undecided: str | None = None
+        reason: str | None = None
         with limited_to_steps(int(steps), FILE_SPENT) as budget:
             if budget.is_spent() and finding.code in OPERATORS:
                 undecided = _not_searched(budget)
             else:
                 with share(_MOST_OF_REST if done + 1 < len(findings) else 1):
-                    found, undecided = search.repairs(finding), search.undecided
+                    found, undecided, reason = search.repairs(finding), search.undecided, search.reason
             if not budget.is_timed:
                 steps = int(budget.steps)
         for repair in found:
@@ -62,7 +65,7 @@ def numbered_repairs(
             repairs.append(NumberedRepair(f"{finding.code}:{counts[finding.code]}", repair))
         if undecided is not None and ends_by_time():
             undecided += "; another run may number the repairs in another way"
-        yield FindingRepairs(finding, tuple(repairs), undecided)
+        yield FindingRepairs(finding, tuple(repairs), undecided, reason)
 
 
 def _not_searched(budget: Budget) -> str:

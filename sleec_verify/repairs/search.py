@@ -15,6 +15,7 @@ from sleec_verify.repairs.edit import edited, edits_between
 from sleec_verify.repairs.effect import effect_of
 from sleec_verify.repairs.operators import CONSEQUENCES, OPERATORS, Operation
 from sleec_verify.repairs.operators.removal import DECLARATION, declaration_removal
+from sleec_verify.repairs.reasons import Refused, why_none
 from sleec_verify.repairs.repair import Candidate, Repair
 from sleec_verify.repairs.verification import Rejected, Verification
 from sleec_verify.results.finding import CheckResult, Finding
@@ -43,6 +44,9 @@ class RepairSearch:
         self._verification = Verification(ruleset, results, scope)
         self.undecided: str | None = None
         """Why the last search of repairs may not have found all, if it may not."""
+        self.reason: str | None = None
+        """Why the last search found none, if it found none and was complete."""
+        self._refused: list[Refused] = []
 
     @property
     def source(self) -> Source:
@@ -51,13 +55,16 @@ class RepairSearch:
 
     def repairs(self, finding: Finding) -> list[Repair]:
         """The repairs, those that take away the least first (`_order`)."""
-        self.undecided = None
+        self.undecided = self.reason = None
+        self._refused = []
         found: dict[tuple[Reading, tuple[Statement, ...]], Repair] = {}
         for operator, candidate in self._proposed(self._ruleset, finding):
             with self._noting_failures():
                 repair = self._repair(finding, operator, candidate)
                 if repair is not None:
                     found.setdefault((repair.repaired.reading, repair.repaired.statements), repair)
+        if not found and self.undecided is None:
+            self.reason = why_none(self._ruleset, finding, self._refused)
         return sorted(found.values(), key=_order)
 
     def verified(self, finding: Finding, candidate: Candidate) -> Repair:
@@ -108,6 +115,8 @@ class RepairSearch:
             except Rejected as rejected:
                 if rejected.undecided:
                     self.undecided = str(rejected)
+                if not rejected.undecided:
+                    self._refused.append(Refused(_in_steps(titles), str(rejected)))
                 if candidate.operator == "assumption":  # it excludes too much if something has no effect any more
                     return None
                 step = _consequence(rejected)

@@ -102,7 +102,11 @@ class Verification:
         def examine(one: Finding, others: Container[Identity] = ()) -> None:
             identity = places.identity(one)
             if identity in others or not allowed[identity]:
-                why = "the finding stays" if identity == target else f"{one.code} appears: {one.message}"
+                why = (
+                    sentence("the finding stays")
+                    if identity == target
+                    else sentence("{code} appears: {message}", code=one.code, message=one.message)
+                )
                 raise Rejected(why, new, one)
 
         if known is not None:

@@ -50,6 +50,8 @@ def _repairs(found: FindingRepairs, palette: Palette) -> Iterator[str]:
         label = palette("help", f"repair[{identifier}]")
         effect = joined("", ["(", effect_in_words(repair), ")"])
         yield joined(" ", [label, repair.candidate.title, effect])
+    if found.reason is not None:
+        yield joined(" ", [palette("help", "repair[none]"), found.reason])
     if found.undecided is not None:
         yield sentence(
             "{unknown} there may be more: {reason}",

@@ -77,8 +77,14 @@ def finding_lines(
         yield from (joined("     ", [margin, line]) for line in lines)
     if repairs is not None:
         title = joined("", [f"{margin} = ", palette("help", sentence("repairs")), ":"])
-        yield title if repairs.repairs or repairs.undecided else joined(" ", [title, sentence("none found")])
+        yield title if repairs.repairs or repairs.undecided else joined(" ", [title, _none(repairs)])
         yield from (joined("     ", [margin, line]) for line in _repair_lines(repairs, palette))
+
+
+def _none(found: FindingRepairs) -> str:
+    if found.reason is None:
+        return sentence("none found")
+    return sentence("none found: {reason}", reason=found.reason)
 
 
 def _repair_lines(found: FindingRepairs, palette: Palette) -> Iterator[str]:

@@ -63,6 +63,8 @@ def _finding(finding: Finding, outcome: CheckedRuleset) -> Json:
     if repairs is None:
         return shown
     unknown: dict[str, Json] = {} if repairs.undecided is None else {"repairs_unknown": repairs.undecided}
+    if repairs.reason is not None:
+        unknown["repairs_none"] = repairs.reason
     return {**shown, "repairs": [_repair(one, source) for one in repairs.repairs], **unknown}
 
 

@@ -118,8 +118,9 @@ class _Markdown:
         if one.repairs is not None:
             from sleec_verify.report.repair_phrases import effect_in_words
 
-            if one.repairs.undecided is not None and not one.repairs.repairs:
-                why = sentence("No repair is shown: {why}.", why=one.repairs.undecided)
+            reason = one.repairs.undecided or one.repairs.reason
+            if reason is not None and not one.repairs.repairs:
+                why = sentence("No repair is shown: {why}.", why=reason)
                 yield f"   - {self._text(why)}"
             for _, repair in one.repairs.repairs:
                 yield f"   - {self._text(sentence('Repair'))}: {self._text(repair.candidate.title)}"

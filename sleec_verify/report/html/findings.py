@@ -73,7 +73,7 @@ def _repairs(found: FindingRepairs) -> Element:
     from sleec_verify.report.repair_phrases import effect_in_words
 
     if not found.repairs:
-        why = found.undecided
+        why = found.undecided or found.reason
         words = sentence("No repair was found.") if why is None else sentence("No repair is shown: {why}.", why=why)
         return element("p", words, kind="limit")
     shown = element("ul", kind="repairs")

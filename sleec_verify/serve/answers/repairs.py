@@ -20,7 +20,8 @@ _SECONDS = 30
 
 
 def repairs(session: Session, body: Body) -> dict[str, Json]:
-    """The repairs of a finding, those that change the fewest situations first. `unknown` says why there may be more."""
+    """The repairs of a finding, what takes away least first. `unknown` says why there may be more, or why there is
+    none."""
     ruleset = session.ruleset(body.text("text"))
     results = session.check(ruleset)
     wanted = body.text("finding")
@@ -29,7 +30,10 @@ def repairs(session: Session, body: Body) -> dict[str, Json]:
             with limited(_SECONDS, require_interest):
                 search = RepairSearch(ruleset, results)
                 found = search.repairs(finding)
-                return {"repairs": [_repair(ruleset.source.text, one) for one in found], "unknown": search.undecided}
+                return {
+                    "repairs": [_repair(ruleset.source.text, one) for one in found],
+                    "unknown": search.undecided or search.reason,
+                }
     raise BadRequest("the text has no such finding", "check it again")
 
 

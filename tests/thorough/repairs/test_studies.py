@@ -48,4 +48,5 @@ def test_issues_have_repairs(path: Path) -> None:
                     assert_is_repair(ruleset, results, repairs[0])
                 else:
                     missing[finding.code] += 1
+                    assert search.reason or search.undecided
     assert missing == WITHOUT_REPAIR.get(path.stem, {})
