@@ -9,9 +9,8 @@ from itertools import islice, product
 from sleec_runtime.model import Rule, Ruleset, Value, formulas_of
 from sleec_verify.conformance.regions import givens
 from sleec_verify.conformance.scenarios.random_scenarios import (
-    allows,
+    Environment,
     components,
-    formulas_of_environment,
     horizon_of,
     window_measures,
 )
@@ -33,11 +32,11 @@ def scenarios_of_each_rule(ruleset: Ruleset) -> Iterator[Scenario]:
     end = horizon_of(ruleset)
     # A completion is that of one execution, and a rule may lead to several of one name.
     never = tuple(Completion(name, 0, None) for name in sorted(ruleset.obligations)) * 3
-    requirements = Requirements(ruleset)
+    requirements, environment = Requirements(ruleset), Environment(ruleset)
     for group in components(ruleset):
         triggers = sorted({rule.trigger for rule in group})
         for rule in group:
-            found = list(islice(_contexts(rule, ruleset), _MOST_CONTEXTS))
+            found = list(islice(_contexts(rule, ruleset, environment), _MOST_CONTEXTS))
             for step in found:
                 for completions in ((), never):
                     yield Scenario(f"rule {rule.label}", (step,), end, completions)
@@ -45,20 +44,20 @@ def scenarios_of_each_rule(ruleset: Ruleset) -> Iterator[Scenario]:
                 Scenario(f"rule {rule.label}, at a border", (first, second), second.at + end, completions)
                 for first, second in _pairs(rule, ruleset, found, requirements, triggers)
                 for completions in (never, ())
-                if allows(ruleset, (first, second))
+                if environment.allows((first, second))
             )
             yield from islice(both, _MOST_SCENARIOS)
 
 
-def _contexts(rule: Rule, ruleset: Ruleset) -> Iterator[Step]:
+def _contexts(rule: Rule, ruleset: Ruleset, environment: Environment) -> Iterator[Step]:
     """The triggers of a rule in each context that it distinguishes."""
     lengths = dict.fromkeys(sorted(window_measures(ruleset)), _LENGTH)
-    regions = givens([*formulas_of(rule), *formulas_of_environment(ruleset)], ruleset.measures)
+    regions = givens([*formulas_of(rule), *environment.formulas()], ruleset.measures)
     for drawn in product(*(one.values for one in regions)):
         values = {one.name: value for one, value in zip(regions, drawn) if not one.event and value is not None}
         events = {one.name for one, value in zip(regions, drawn) if one.event and value}
         step = Step(0, tuple(sorted({rule.trigger, *events})), {**lengths, **values})
-        if allows(ruleset, (step,)):
+        if environment.allows((step,)):
             yield step
 
 

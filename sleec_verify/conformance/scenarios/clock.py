@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import floor
+
 from sleec_runtime import VirtualClock
 from sleec_runtime.timed.clock import Time
 
@@ -20,3 +22,8 @@ class ScenarioClock(VirtualClock):
     def arrive(self, at: Time) -> None:
         """Moves to the time `at`. No alarm may be set before it."""
         self._now = max(self._now, at)
+
+
+def second(time: Time) -> int:
+    """The second to which a time belongs."""
+    return floor(time)

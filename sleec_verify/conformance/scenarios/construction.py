@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
-from sleec_runtime.evaluation.trace import Instant, Trace
-from sleec_runtime.evaluation.trace_violations import violations
 from sleec_runtime.model import Value
+from sleec_verify.conformance.scenarios.lawfulness import Lawfulness
 from sleec_verify.conformance.scenarios.scenario import Completion, Scenario, Step
-from sleec_verify.replay.timeline import timeline_of
 from sleec_verify.results.timeline import Due
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.relations import names_of_relation, names_of_rule
@@ -16,20 +14,21 @@ from sleec_verify.traces.trace import TraceInstant
 
 
 def scenario_of(index: TraceIndex, name: str, trace: Sequence[TraceInstant]) -> Scenario | None:
-    """The scenario in which this trace happens, or None if the evaluator does not confirm the trace.
+    """The scenario in which this trace happens, or None if the trace breaks a statement.
 
     An event occurs because a rule requires it, or else the test causes it. Obligations that trigger nothing occur only
     as rules require. Values change only where rules read them, or else where relations do.
     """
+    laws = Lawfulness(index.ruleset, index.untimed)
     related = {name for relation in index.relations for kind, name in names_of_relation(relation) if kind == "measure"}
     candidates = (list(_with_lasting_values(index, trace, read)) for read in (frozenset[str](), related))
-    moments = next((found for found in candidates if _is_lawful(index, found)), None)
+    moments = next((found for found in candidates if not laws.broken(found)), None)
     if moments is None:
         return None
-    needed = _without_unrequired(index, moments)
-    if _is_lawful(index, needed):
-        moments = needed
-    due = due_in(index, moments)
+    due = laws.due(moments)
+    needed = _without_unrequired(index, [one for one in due if not one.negated], moments)
+    if not laws.broken(needed):
+        moments, due = needed, laws.due(needed)
     required = [one for one in due if not one.negated]
     steps = tuple(_steps(moments, required))
     ends = [one.start if one.end is None else one.end for one in due]
@@ -43,21 +42,11 @@ def scenario_of(index: TraceIndex, name: str, trace: Sequence[TraceInstant]) -> 
     )
 
 
-def due_in(index: TraceIndex, moments: Sequence[TraceInstant]) -> tuple[Due, ...]:
-    """What the rules require in a complete trace, by time and then in text order. Raises `Undecided`."""
-    found = (due for moment in timeline_of(index, moments).moments for due in moment.due)
-    return tuple(sorted(dict.fromkeys(found), key=lambda due: due.start))
-
-
-def _is_lawful(index: TraceIndex, moments: Sequence[TraceInstant]) -> bool:
-    instants = tuple(Instant(one.time, one.events, one.conditions) for one in moments)
-    return not violations(index.ruleset, Trace(instants), index.untimed)
-
-
-def _without_unrequired(index: TraceIndex, moments: Sequence[TraceInstant]) -> list[TraceInstant]:
+def _without_unrequired(
+    index: TraceIndex, required: Sequence[Due], moments: Sequence[TraceInstant]
+) -> list[TraceInstant]:
     """The instants without the obligations that trigger nothing and that no requirement needs. The solver meets each
     requirement at an instant of its own, where one instant may serve several."""
-    required = [one for one in due_in(index, moments) if not one.negated]
     acts = index.ruleset.obligations - index.by_trigger.keys()
     return [
         TraceInstant(one.time, one.events - (acts - _met_at(required, one.time, moments)), one.conditions)

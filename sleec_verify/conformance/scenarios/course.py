@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from math import floor
 from typing import Literal
 
-from sleec_runtime.evaluation.trace import Instant, Trace
 from sleec_runtime.model import Value
-from sleec_runtime.timed.clock import Time
+from sleec_verify.traces.trace import TraceInstant
 
 Kind = Literal["occurs", "rejected", "starts", "done", "fails"]
 """What happens: triggers occur, or are rejected; the code of an obligation starts, completes it, or raises."""
@@ -47,14 +45,9 @@ class Course:
             if one.kind in ("occurs", "done"):
                 yield from ((one.at, name) for name in one.names)
 
-    def trace(self) -> Trace:
+    def trace(self) -> tuple[TraceInstant, ...]:
         """The trace of all events, with an instant for the end."""
         events: dict[int, set[str]] = {time: set() for time in (*self.values, self.end)}
         for time, name in self.occurrences():
             events.setdefault(time, set()).add(name)
-        return Trace(tuple(Instant(time, frozenset(events[time]), self.values_at(time)) for time in sorted(events)))
-
-
-def second(time: Time) -> int:
-    """The second to which a time belongs."""
-    return floor(time)
+        return tuple(TraceInstant(time, frozenset(events[time]), self.values_at(time)) for time in sorted(events))

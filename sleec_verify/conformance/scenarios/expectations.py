@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from sleec_runtime.evaluation.trace import Instant, Trace
-from sleec_runtime.evaluation.trace_violations import Violation, violations
 from sleec_runtime.model import Ruleset, Value
-from sleec_verify.conformance.scenarios.construction import due_in
+from sleec_verify.conformance.scenarios.lawfulness import Lawfulness
 from sleec_verify.conformance.scenarios.scenario import Scenario
 from sleec_verify.results.timeline import Due
-from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.trace import TraceInstant
 from sleec_verify.wording.phrases import quoted
 
@@ -40,27 +37,22 @@ def _changed(values: Mapping[str, Value], changes: Mapping[str, Value | None]) -
 def unexpected(ruleset: Ruleset, scenario: Scenario) -> Iterator[str]:
     """The differences between what a scenario states and what the rules of its domain require, in words.
 
-    The windows are those of the solver, and the evaluator of traces finds violations. Raises WrongType for a measure
-    without a value that gives the length of a window.
+    Raises WrongType for a measure without a value that gives the length of a window.
     """
     trace = trace_of(scenario)
-    due = required_in(ruleset, trace)
+    laws = Lawfulness(ruleset)
+    due = laws.due(trace)
     yield from _different("obligation", scenario.obligations, [one for one in due if not one.negated])
     if scenario.prohibitions is not None:
         yield from _different("prohibition", scenario.prohibitions, [one for one in due if one.negated])
-    for one in _violations(ruleset, trace):
+    for one in laws.broken(trace):
         text = ruleset.source.text[one.statement.span.start : one.statement.span.end].split("\n")[0]
         yield f"violated at {one.time}: {text}"
 
 
 def required_in(ruleset: Ruleset, trace: Sequence[TraceInstant]) -> tuple[Due, ...]:
     """What the rules of one domain require in a trace. Raises WrongType as `unexpected`."""
-    _violations(ruleset, trace)
-    return due_in(TraceIndex(ruleset), trace)
-
-
-def _violations(ruleset: Ruleset, trace: Sequence[TraceInstant]) -> tuple[Violation, ...]:
-    return violations(ruleset, Trace(tuple(Instant(one.time, one.events, one.conditions) for one in trace)))
+    return Lawfulness(ruleset).due(trace)
 
 
 def _different(what: str, stated: Sequence[Due], required: Sequence[Due]) -> Iterator[str]:

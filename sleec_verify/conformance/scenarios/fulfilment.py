@@ -110,9 +110,13 @@ class Fulfilment:
         return self._is_stopped_with_another(one) or self._is_impossible(one)
 
     def _is_stopped_with_another(self, one: Requirement) -> bool:
-        """Whether the exception that the scenario raised in the code of a clause stopped it before this obligation of
-        the clause."""
-        clause = {other.name for other in self.requirements if other.rule is one.rule and other.place == one.place}
+        """Whether the exception that the scenario raised in the code of a clause, or of an alternative, stopped it
+        before this obligation of the same code."""
+        clause = {
+            other.name
+            for other in self.requirements
+            if other.rule is one.rule and other.place == one.place and other.replaces is one.replaces
+        }
         for name in clause - {one.name}:
             of_window = (e for e in self.of_name(name) if e.place > one.place and one.covers(e.start.at))
             first = next(of_window, None)

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping
 from typing import NamedTuple
 
-from sleec_runtime.evaluation.conflicts import forbidding, has_conflict
-from sleec_runtime.evaluation.formula_truth import Situation
 from sleec_runtime.model import Context, Obligation, Ruleset, Value
+from sleec_verify.conformance.scenarios.compiled_rules import CompiledRules
 from sleec_verify.conformance.scenarios.requirement import Requirements
 
 
@@ -32,9 +31,8 @@ class Impossibility:
     """Contradictions of one instant under the rules and constraints of `ruleset`."""
 
     def __init__(self, ruleset: Ruleset, requirements: Requirements) -> None:
-        self._ruleset = ruleset
         self._requirements = requirements
-        self._constraints = forbidding(ruleset)
+        self._compiled = CompiledRules(ruleset)
 
     def contradicts(
         self,
@@ -75,5 +73,4 @@ class Impossibility:
         literals += [Obligation(ban.name, negated=True) for ban in forbidden if ban.covers(time)]
         literals += [Obligation(name) for name in happening]
         events = frozenset(literal.name for literal in literals if not literal.negated)
-        situation = Situation(Context(events, values), self._ruleset.measures)
-        return has_conflict(tuple(dict.fromkeys(literals)), self._constraints, situation)
+        return self._compiled.conflict(literals, Context(events, values))

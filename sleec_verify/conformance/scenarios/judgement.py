@@ -1,25 +1,25 @@
 """The judgement of a course: does what happened follow the rules, and did only that happen?
 
-The evaluator of traces says which rules are broken. The requirements, computed separately, say what is missing, and
-what nothing requires. Both must agree.
+The requirements say what is missing, and what nothing requires. They are decided by clauses and a solver, because the
+robot may run the evaluator of the runtime.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
 
 from sleec_runtime.errors import ConflictInContext, UndeterminedDecision
-from sleec_runtime.evaluation.trace import Instant, Trace
-from sleec_runtime.evaluation.trace_violations import Violation, violations
 from sleec_runtime.model import RELATIONS, Rule, Ruleset
 from sleec_verify.conformance.scenarios.course import Course, Happening
 from sleec_verify.conformance.scenarios.execution import Execution
 from sleec_verify.conformance.scenarios.fulfilment import Fulfilment
 from sleec_verify.conformance.scenarios.impossibility import Impossibility
+from sleec_verify.conformance.scenarios.lawfulness import Broken, Lawfulness
 from sleec_verify.conformance.scenarios.requirement import Requirement, Requirements
+from sleec_verify.traces.trace import TraceInstant
 
 FaultKind = Literal["missing", "forbidden", "not required", "rejected", "raised", "relation"]
 
@@ -46,6 +46,7 @@ class Judge:
         self._judged = _with_triggers_apart(ruleset, self._apart) if self._apart else ruleset
         self._requirements = Requirements(self._judged)
         self._impossibility = Impossibility(self._judged, self._requirements)
+        self._laws = Lawfulness(self._judged, requirements=self._requirements)
 
     def fault(self, course: Course) -> Fault | None:
         """The first fault of a course."""
@@ -56,7 +57,7 @@ class Judge:
         if self._apart:
             course = _with_names_apart(course, self._apart)
         yield from _CourseJudgement(
-            course, self._judged, Fulfilment(course, self._requirements, self._impossibility)
+            course, self._judged, self._laws, Fulfilment(course, self._requirements, self._impossibility)
         ).faults()
 
     def requirements(self, course: Course) -> tuple[Requirement, ...]:
@@ -68,6 +69,7 @@ class Judge:
 class _CourseJudgement:
     course: Course
     ruleset: Ruleset
+    laws: Lawfulness
     fulfilment: Fulfilment
 
     def faults(self) -> Iterator[Fault]:
@@ -94,39 +96,32 @@ class _CourseJudgement:
     # Rules that are broken -------------------------------------------------------------------------------------------
 
     def _broken_rules(self) -> Iterator[Fault]:
-        broken = violations(self.ruleset, self.course.trace())
-        of_rules = {(one.statement.label, one.time) for one in broken if isinstance(one.statement, Rule)}
         unmet: dict[tuple[str, int], dict[int, list[Requirement]]] = {}
         for one in self.fulfilment.requirements:
             if one.replaces is None:
                 triggerings = unmet.setdefault((one.rule.label, one.since), {})
                 triggerings.setdefault(one.place, []).extend([] if self.fulfilment.is_met(one) else [one])
-        for triggered, triggerings in unmet.items():
+        for triggerings in unmet.values():
             # An event that occurs again in the same second is one event of the trace.
             for one in min(triggerings.values(), key=len):
-                if triggered not in of_rules:
-                    raise AssertionError(
-                        f"the evaluator of traces and the requirements disagree about {one.rule.label} at {one.since}; "
-                        "this is a bug in sleec-verify"
-                    )
                 yield self._fault_of(self._unmet(one))
-        for violation in broken:
-            if not isinstance(violation.statement, Rule) and self._by_one_act(violation):
-                yield Fault("relation", violation.time, (), statement=violation.statement)
+        for broken in self.laws.broken_relations(self.course.trace()):
+            if self._by_one_act(broken):
+                yield Fault("relation", broken.time, (), statement=broken.statement)
 
-    def _by_one_act(self, violation: Violation) -> bool:
+    def _by_one_act(self, broken: Broken) -> bool:
         """Whether one act breaks a constraint or relation. Acts of one second come one after the other."""
-        if isinstance(violation.statement, RELATIONS):
+        if isinstance(broken.statement, RELATIONS):
             return True
-        alone = replace(self.ruleset, statements=(violation.statement,))
-        values = self.course.values_at(violation.time)
+        values = self.course.values_at(broken.time)
         acts: dict[int, set[str]] = {}
         for name, events in self.fulfilment.events.items():
             for _, at, act in events:
-                if at == violation.time:
+                if at == broken.time:
                     acts.setdefault(act, set()).add(name)
         return any(
-            violations(alone, Trace((Instant(violation.time, frozenset(names), values),))) for names in acts.values()
+            broken in self.laws.broken_relations([TraceInstant(broken.time, frozenset(names), values)])
+            for names in acts.values()
         )
 
     def _unmet(self, one: Requirement) -> Requirement:
@@ -195,12 +190,12 @@ class _CourseJudgement:
         """Whether a relation is broken without the event of an execution."""
         if execution.end is None or not any(isinstance(s, RELATIONS) for s in self.ruleset.statements):
             return False
-        relations = replace(
-            self.ruleset, statements=tuple(s for s in self.ruleset.statements if isinstance(s, RELATIONS))
-        )
         without = tuple(one for one in self.course.happenings if one is not execution.end)
         trace = replace(self.course, happenings=without).trace()
-        return len(violations(relations, trace)) > len(violations(relations, self.course.trace()))
+        return self._broken_relations(trace) > self._broken_relations(self.course.trace())
+
+    def _broken_relations(self, trace: Sequence[TraceInstant]) -> int:
+        return sum(isinstance(one.statement, RELATIONS) for one in self.laws.broken_relations(trace))
 
 
 def _preference(one: Requirement, act: int) -> tuple[object, ...]:

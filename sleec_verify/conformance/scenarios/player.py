@@ -9,8 +9,8 @@ from sleec_runtime.dispatch.recording import recording
 from sleec_runtime.errors import ConflictInContext, NeedsAwait, SleecError, UndeterminedDecision, VariantsFailed
 from sleec_runtime.model import Value
 from sleec_runtime.timed.clock import Time
-from sleec_verify.conformance.scenarios.clock import ScenarioClock
-from sleec_verify.conformance.scenarios.course import Course, Happening, Kind, second
+from sleec_verify.conformance.scenarios.clock import ScenarioClock, second
+from sleec_verify.conformance.scenarios.course import Course, Happening, Kind
 from sleec_verify.conformance.scenarios.event_loop import ScenarioLoop
 from sleec_verify.conformance.scenarios.scenario import Completion, Scenario, Step
 from sleec_verify.conformance.subject import Arguments, Bench, Subject, needs_running_loop

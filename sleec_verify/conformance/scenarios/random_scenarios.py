@@ -7,9 +7,6 @@ from dataclasses import replace
 
 from hypothesis import strategies as st
 
-from sleec_runtime.evaluation.instant_formulas import instant_formula
-from sleec_runtime.evaluation.trace import Instant, Trace
-from sleec_runtime.evaluation.trace_violations import violations
 from sleec_runtime.model import (
     RELATIONS,
     Assume,
@@ -27,8 +24,10 @@ from sleec_runtime.model import (
     names_of,
 )
 from sleec_verify.conformance import strategies
+from sleec_verify.conformance.scenarios.lawfulness import Lawfulness
 from sleec_verify.conformance.scenarios.scenario import Completion, Scenario, Step
-from sleec_verify.encoding.relations import events_of
+from sleec_verify.encoding.relations import events_of, formula_at_one_instant
+from sleec_verify.traces.trace import TraceInstant
 
 _LENGTHS = (1, 2, 3, 5, 10)
 """The values of measures that give the length of a window."""
@@ -48,7 +47,7 @@ def scenarios(ruleset: Ruleset) -> st.SearchStrategy[Scenario]:
 
     Most are about a few rules that share names, because what goes wrong in time goes wrong among these.
     """
-    horizon, environment = horizon_of(ruleset), _environment(ruleset)
+    horizon, environment = horizon_of(ruleset), Environment(ruleset)
     measured = {name: st.sampled_from(_LENGTHS) for name in sorted(window_measures(ruleset))}
     groups = [rules for rules in components(ruleset) if len(rules) < len(ruleset.rules)]
 
@@ -59,7 +58,7 @@ def scenarios(ruleset: Ruleset) -> st.SearchStrategy[Scenario]:
         for number, (delay, when, given) in enumerate(raw):
             at += delay if number else 0
             step = Step(at, tuple(sorted(when)), {**known, **given} if number == 0 else given)
-            if environment is None or _is_allowed(environment, [*found, step]):
+            if environment.allows([*found, step]):
                 found.append(step)
         times = [step.at for step in found] or [0]
         completed = tuple(
@@ -83,7 +82,7 @@ def _drawn(
     triggers, obligations = sorted(about.triggers), sorted(about.obligations)
     some = st.lists(st.sampled_from(triggers), max_size=3, unique=True) if triggers else st.just([])
     one = st.sampled_from(triggers).map(lambda name: [name]) if triggers else st.just([])
-    formulas = [*(formula for rule in rules for formula in formulas_of(rule)), *formulas_of_environment(ruleset)]
+    formulas = [*(formula for rule in rules for formula in formulas_of(rule)), *Environment(ruleset).formulas()]
     read = sorted(set().union(*map(names_of, formulas)))
     new = {
         name: st.one_of(strategies.values(ruleset, name), st.none())
@@ -164,45 +163,37 @@ def _reach(clause: Clause) -> int:
     return max([found, *(_reach(hedge) for hedge in clause.hedges)])
 
 
-def _environment(ruleset: Ruleset) -> Ruleset | None:
+class Environment:
     """The assumptions, and the relations that name no obligation."""
-    kept = tuple(
-        s
-        for s in ruleset.statements
-        if isinstance(s, Assume) or (isinstance(s, RELATIONS) and not ruleset.obligations & set(events_of(s)))
-    )
-    return replace(ruleset, statements=kept, inferred=tuple(ruleset.measures.values())) if kept else None
 
+    def __init__(self, ruleset: Ruleset) -> None:
+        self._statements = tuple(
+            s
+            for s in ruleset.statements
+            if isinstance(s, Assume) or (isinstance(s, RELATIONS) and not ruleset.obligations & set(events_of(s)))
+        )
+        measures = tuple(ruleset.measures.values())
+        self._laws = Lawfulness(replace(ruleset, statements=self._statements, inferred=measures))
 
-def formulas_of_environment(ruleset: Ruleset) -> list[Formula]:
-    """The formulas of the assumptions and of the relations of the environment about one instant."""
-    environment = _environment(ruleset)
-    statements = () if environment is None else environment.statements
-    found: list[Formula] = []
-    for one in statements:
-        if isinstance(one, Lasting):
-            found.append(one.formula)
-        elif isinstance(one, (Assume, *RELATIONS)) and not (
-            isinstance(one, EventRelation) and one.relation == "happenBefore"
-        ):
-            found.append(instant_formula(one))
-    return found
+    def formulas(self) -> Iterator[Formula]:
+        """The formulas about one instant."""
+        for one in self._statements:
+            if isinstance(one, Lasting):
+                yield one.formula
+            elif not (isinstance(one, EventRelation) and one.relation == "happenBefore"):
+                yield formula_at_one_instant(one)
 
-
-def allows(ruleset: Ruleset, steps: Sequence[Step]) -> bool:
-    """Whether the assumptions and the relations of the environment allow these steps."""
-    environment = _environment(ruleset)
-    return environment is None or _is_allowed(environment, steps)
-
-
-def _is_allowed(environment: Ruleset, steps: Sequence[Step]) -> bool:
-    values: dict[str, Value] = {}
-    instants = []
-    for step in steps:
-        for name, value in step.given.items():
-            if value is None:
-                values.pop(name, None)
-            else:
-                values[name] = value
-        instants.append(Instant(step.at, frozenset(step.when), dict(values)))
-    return not violations(environment, Trace(tuple(instants)))
+    def allows(self, steps: Sequence[Step]) -> bool:
+        """Whether these steps are allowed."""
+        if not self._statements:
+            return True
+        values: dict[str, Value] = {}
+        trace = []
+        for step in steps:
+            for name, value in step.given.items():
+                if value is None:
+                    values.pop(name, None)
+                else:
+                    values[name] = value
+            trace.append(TraceInstant(step.at, frozenset(step.when), dict(values)))
+        return not self._laws.broken(trace)

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from sleec_runtime.evaluation.hedge_chain import decide
 from sleec_runtime.model import Context, Rule, Ruleset, Value
+from sleec_verify.conformance.scenarios.compiled_rules import CompiledRules
 from sleec_verify.conformance.scenarios.course import Course
 from sleec_verify.encoding.response_windows import ResponseWindows, WindowedResponse
+from sleec_verify.encoding.trace_scope import Untimed
 
 _KEPT = 4096
 
@@ -60,8 +61,10 @@ class Requirement:
 class Requirements:
     """What the rules of a ruleset require when events occur. Answers are kept."""
 
-    def __init__(self, ruleset: Ruleset) -> None:
+    def __init__(self, ruleset: Ruleset, untimed: Untimed = "at") -> None:
         self._ruleset = ruleset
+        self._untimed = untimed
+        self._compiled = CompiledRules(ruleset)
         self._by_trigger: dict[str, list[Rule]] = {}
         for rule in ruleset.rules:
             self._by_trigger.setdefault(rule.trigger, []).append(rule)
@@ -87,13 +90,12 @@ class Requirements:
     def _decided(
         self, names: Iterable[str], context: Context
     ) -> Iterator[tuple[Rule, int, tuple[WindowedResponse, ...]]]:
-        windows = ResponseWindows(self._ruleset, context, "at")
+        windows = ResponseWindows(self._ruleset, context, self._untimed)
         for name in names:
             for rule in self._by_trigger.get(name, ()):
-                decision = decide(rule, context, self._ruleset.reading, self._ruleset.measures)
-                if decision is not None:
-                    clause = list(rule.clauses())[decision.clause]
-                    yield rule, decision.clause, tuple(windows.of(clause))
+                number = self._compiled.clause(rule, context)
+                if number is not None:
+                    yield rule, number, tuple(windows.of(list(rule.clauses())[number]))
 
     def of_course(self, course: Course) -> Iterator[Requirement]:
         """All requirements in a course, each before its alternatives."""

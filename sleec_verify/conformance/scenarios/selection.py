@@ -19,7 +19,7 @@ from sleec_verify.query.ruleset_index import RulesetIndex
 _SEVERAL_ORDERS = 150
 """With at most this number of goals, the search runs in several orders, and the best result counts."""
 
-_UNCONFIRMED = "unknown: the evaluator does not confirm the trace"
+_UNCONFIRMED = "unknown: the trace that was found breaks a rule or relation"
 
 
 @dataclass(frozen=True)

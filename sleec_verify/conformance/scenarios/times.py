@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 
-from sleec_runtime.model import SECONDS
-from sleec_runtime.timed.clock import FURTHEST
+from sleec_runtime.model import LONGEST, SECONDS
 from sleec_verify.entailment.situation_text import SituationError
 from sleec_verify.wording.phrases import shortened
 
@@ -27,6 +26,6 @@ def time_of(key: str, value: object) -> int:
         raise SituationError(f"{shown}, not a time", 'give whole seconds, or a text such as "5 minutes"')
     if seconds < 0:
         raise SituationError(f"{shown}, before the start", "a scenario starts at 0")
-    if seconds > FURTHEST:
-        raise SituationError(f"{shown}, too long", f"the longest time is {FURTHEST:,} seconds")
+    if seconds > LONGEST:
+        raise SituationError(f"{shown}, too long", f"the longest time is {LONGEST:,} seconds")
     return seconds

@@ -64,6 +64,14 @@ MEETINGS = ("replay", "conformance", "pytest_plugin")
 `replay` does."""
 WITHOUT_SOLVER = "sleec_verify.audit"
 """A room of the verifier that uses the evaluator alone."""
+SCENARIOS = "sleec_verify.conformance.scenarios"
+"""The part of a test of robots that decides what scenarios require. It may run on a robot that runs the evaluator, so
+it uses the solver alone."""
+OF_THE_ROBOT = {
+    f"{SCENARIOS}.player": {"sleec_runtime.dispatch.recording", "sleec_runtime.timed.clock"},
+    f"{SCENARIOS}.clock": {"sleec_runtime.timed.clock"},
+}
+"""What sees the robot under test, and what gives it the time."""
 SOLVER_LAYERS = VERIFIER_LAYERS[VERIFIER_LAYERS.index("encoding") : VERIFIER_LAYERS.index("report")]
 
 
@@ -136,3 +144,12 @@ def test_the_evaluator_and_the_solver_meet_only_in_replays_and_tests_of_robots()
                 assert not [one for one in imported if room(one).partition(".")[2] in SOLVER_LAYERS], module
             else:
                 assert not [one for one in imported if one.startswith(evaluator)], module
+
+
+def test_what_scenarios_require_is_decided_without_the_evaluator() -> None:
+    evaluator = (*(f"sleec_runtime.{one}" for one in EVALUATOR), "sleec_verify.replay")
+    found = {module for module in imports() if module.startswith(SCENARIOS)}
+    assert len(found) > 10
+    for module in found:
+        others = imports()[module] - OF_THE_ROBOT.get(module, set())
+        assert not [one for one in others if one.startswith(evaluator)], module

@@ -60,7 +60,7 @@ def test_a_rejected_trigger_did_not_occur() -> None:
         "3601: Vacuum starts",
         "3601: Vacuum done",
     ]
-    assert [(instant.time, set(instant.events)) for instant in course.trace().instants] == [
+    assert [(instant.time, set(instant.events)) for instant in course.trace()] == [
         (0, {"UserSleeps"}),
         (3600, set()),
         (3601, {"DustSeen", "Vacuum"}),
