@@ -11,7 +11,7 @@ from functools import cached_property
 from itertools import chain, combinations
 from typing import NamedTuple
 
-from sleec_runtime.model import Atom, Effect, Lasting, MeasureRelation, Ruleset, formulas_of, leaves, literals
+from sleec_runtime.model import Atom, Effect, Lasting, Length, MeasureRelation, Ruleset, formulas_of, leaves, literals
 from tests.support.explicit.demands import Demand, every, forbids, met_by_silence, progress, strongest
 from tests.support.explicit.rules import Events, Lastings, Meaning, Values, silence, valuations
 
@@ -109,7 +109,19 @@ class Explicit:
             elif isinstance(statement, Lasting):
                 formulas += [f for f in (statement.condition, statement.formula, statement.end_condition) if f]
         formulas += [c.formula for c in self.ruleset.constraints if hasattr(c, "formula")]
-        return valuations(self.ruleset, formulas)
+        return valuations(self.ruleset, formulas, list(self._lengths()))
+
+    def _lengths(self) -> Iterator[Length]:
+        """The lengths of windows and relations."""
+        for rule in self.rules:
+            for clause in rule.clauses():
+                for obligation in literals(clause):
+                    window = None if obligation.timing is None else obligation.timing.window
+                    if window is not None:
+                        yield from (length for length in (window.start, window.end) if length is not None)
+        for statement in self.ruleset.statements:
+            if isinstance(statement, Lasting) and statement.duration is not None:
+                yield statement.duration
 
     def _outcome(self, rule: int, events: Events, values: int) -> tuple[int, Demand] | None:
         """The clause of a rule that decides where its trigger occurs with these events and values, and what it

@@ -6,12 +6,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 from functools import cached_property
-from itertools import combinations, product
+from itertools import combinations, pairwise, product
+from math import floor
 
 from sleec_runtime.model import (
     And,
     Assume,
     Atom,
+    Calculation,
     Clause,
     Comparison,
     Effect,
@@ -20,6 +22,7 @@ from sleec_runtime.model import (
     Formula,
     Lasting,
     Length,
+    Measure,
     MeasureRef,
     MeasureRelation,
     Never,
@@ -34,6 +37,7 @@ from sleec_runtime.model import (
     Truth,
     Value,
     leaves,
+    measures_of,
 )
 from tests.support.explicit.demands import Demand, Literal, every, some
 
@@ -71,39 +75,49 @@ def _side(side: object, values: Values, scales: Mapping[str, tuple[str, ...]]) -
         return side.value
     if isinstance(side, ScaleValue):
         return side.rank
-    assert isinstance(side, MeasureRef), "the oracle does not calculate"
+    if isinstance(side, Calculation):
+        return side.value({name: _number(values[name]) for name in side.measures})
+    assert isinstance(side, MeasureRef)
     value = values[side.name]
     return scales[side.name].index(value) if isinstance(value, str) else value
 
 
-def valuations(ruleset: Ruleset, formulas: list[Formula]) -> list[Values]:
-    """One valuation for each combination of truth values that the leaves of `formulas` can have."""
+def valuations(ruleset: Ruleset, formulas: list[Formula], lengths: list[Length]) -> list[Values]:
+    """One valuation for each combination of truth values and lengths of windows that `formulas` and `lengths` can have.
+
+    Numbers are looked at near the constants that comparisons name, and between them. That is exact for comparisons of a
+    measure with a number or another measure; calculations and lengths need measures with declared ranges.
+    """
     found = [leaf for formula in formulas for leaf in leaves(formula)]
     scales = {name: measure.values for name, measure in ruleset.measures.items()}
     domains: dict[str, list[Value]] = {
         leaf.name: [False, True] for leaf in found if isinstance(leaf, Atom) and leaf.kind == "condition"
     }
-    numbers = {
-        side.value
-        for leaf in found
-        if isinstance(leaf, Comparison)
-        for side in (leaf.left, leaf.right)
-        if isinstance(side, Number)
-    } or {0}
-    # Half a unit on each side of every constant stands for all numbers in between.
-    halves = sorted({Fraction(2 * number + shift, 2) for number in numbers for shift in (-2, -1, 0, 1, 2)})
-    for leaf in found:
-        if isinstance(leaf, Comparison):
-            for side in (leaf.left, leaf.right):
-                if isinstance(side, MeasureRef):
-                    measure = ruleset.measures[side.name]
-                    whole = [number for number in halves if number.denominator == 1 or measure.kind == "number"]
-                    domains[side.name] = list(measure.values) or list(whole)
-    distinct: dict[tuple[bool, ...], Values] = {}
+    comparisons = [leaf for leaf in found if isinstance(leaf, Comparison)]
+    sides = [side for leaf in comparisons for side in (leaf.left, leaf.right)]
+    numbers = {side.value for side in sides if isinstance(side, Number)} or {0}
+    timed = {name for length in lengths for name in length.measures}
+    for name in sorted(timed.union(*(measures_of(leaf) for leaf in comparisons))):
+        measure = ruleset.measures[name]
+        domains[name] = list(measure.values) or _numbers(numbers, measure, len(ruleset.measures))
+    distinct: dict[tuple[object, ...], Values] = {}
     for chosen in product(*domains.values()):
         values = dict(zip(domains, chosen))
-        distinct.setdefault(tuple(holds(leaf, frozenset(), values, scales) for leaf in found), values)
+        truths = [holds(leaf, frozenset(), values, scales) for leaf in found]
+        distinct.setdefault((*truths, *(values[name] for name in sorted(timed))), values)
     return list(distinct.values())
+
+
+def _numbers(constants: set[Rational], measure: Measure, measures: int) -> list[Value]:
+    """The constants, and between any two of them as many other numbers as there are measures."""
+    if measure.kind == "integer":
+        near = {floor(constant) + shift for constant in constants for shift in range(-measures, measures + 2)}
+        return sorted(near)
+    parts = range(-measures, measures + 1)
+    ordered = sorted(constants)
+    gaps = [upper - lower for lower, upper in pairwise(ordered)] or [1]
+    step = Fraction(min(gaps)) / (2 * measures + 1)
+    return sorted(constant + step * part for constant in ordered for part in parts)
 
 
 class Meaning:
@@ -145,8 +159,8 @@ class Meaning:
         window = None if obligation.timing is None else obligation.timing.window
         first, last = since, since if window is None else None
         if window is not None:
-            first += 0 if window.start is None else _seconds(window.start)
-            last = None if window.end is None else since + _seconds(window.end)
+            first += 0 if window.start is None else _seconds(window.start, values)
+            last = None if window.end is None else since + _seconds(window.end, values)
         options: list[Demand] = [Literal(obligation.name, obligation.negated, first, last)]
         if obligation.timing is not None and obligation.timing.otherwise is not None:
             then = since if last is None else last
@@ -207,7 +221,7 @@ class Meaning:
             begins = statement.event in events and self.holds(statement.condition, events, values)
             left = now.get(number, 0)
             if begins:
-                length = None if statement.duration is None else _seconds(statement.duration)
+                length = None if statement.duration is None else _seconds(statement.duration, values)
                 left = None if left is None or length is None else max(left, length)
             if left == 0:
                 continue
@@ -233,7 +247,12 @@ def silence(active: Lastings) -> Lastings:
     return pass_second(frozenset((number, None if left is None else left - 1) for number, left in active))
 
 
-def _seconds(length: Length) -> int:
-    seconds = length.seconds
+def _seconds(length: Length, values: Values) -> int:
+    seconds = length.seconds_where({name: _number(values[name]) for name in length.measures})
     assert isinstance(seconds, int), "the oracle counts whole seconds"
     return seconds
+
+
+def _number(value: Value) -> Rational:
+    assert not isinstance(value, (bool, str)), "a length is a number"
+    return value
