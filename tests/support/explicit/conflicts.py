@@ -11,7 +11,19 @@ from functools import cached_property
 from itertools import chain, combinations
 from typing import NamedTuple
 
-from sleec_runtime.model import Atom, Effect, Lasting, Length, MeasureRelation, Ruleset, formulas_of, leaves, literals
+from sleec_runtime.model import (
+    Assume,
+    Atom,
+    Effect,
+    Lasting,
+    Length,
+    MeasureRelation,
+    Never,
+    Ruleset,
+    formulas_of,
+    leaves,
+    literals,
+)
 from tests.support.explicit.demands import Demand, every, forbids, met_by_silence, progress, strongest
 from tests.support.explicit.rules import Events, Lastings, Meaning, Values, silence, valuations
 
@@ -84,8 +96,19 @@ class Explicit:
         return frozenset(o.name for rule in self.rules for c in rule.clauses() for o in literals(c)) - self.declared
 
     @cached_property
+    def assumed(self) -> Events:
+        """The events that assumptions name."""
+        formulas = [c.formula for c in self.ruleset.constraints if isinstance(c, Assume)]
+        return frozenset(a.name for f in formulas for a in leaves(f) if isinstance(a, Atom) and a.kind == "trigger")
+
+    @cached_property
     def events(self) -> Events:
-        named: set[str] = set(self.inputs | self.acts)
+        named: set[str] = set(self.inputs | self.acts | self.assumed)
+        for constraint in self.ruleset.constraints:
+            if isinstance(constraint, Never):
+                named.update(
+                    a.name for a in leaves(constraint.formula) if isinstance(a, Atom) and a.kind != "condition"
+                )
         for statement in self.ruleset.statements:
             for field in ("left", "right", "event", "end"):
                 value = getattr(statement, field, None)
@@ -287,7 +310,8 @@ class Explicit:
         return {rules for rules in stuck if self._is_situation(rules, state, events, speaking)}
 
     def _is_situation(self, rules: frozenset[int], state: State, events: Events, speaking: list[int]) -> bool:
-        concerned = {self.rules[number].trigger for number in rules}.union(*(self.named[number] for number in rules))
+        triggers = {self.rules[number].trigger for number in rules}
+        concerned = triggers.union(self.assumed, *(self.named[number] for number in rules))
         if not events <= concerned or rules.isdisjoint(speaking):
             return False
         return not any(forbids(demand, events) for number in rules for demand in state.pending[number])
