@@ -213,8 +213,8 @@ class TraceIndex(Memo):
 
     @cached_property
     def never_in_response(self) -> frozenset[str]:
-        """The mere inputs that no rule requires, or that a condition names. Others that a rule requires make no conflict
-        by themselves: the check `required-input` reports the rule."""
+        """The mere inputs that no rule requires, or that a condition names. Others that a rule requires make no
+        conflict by themselves: the check `required-input` reports the rule."""
         return self.mere_inputs - (self.obliging.keys() - self.naming.keys())
 
 

@@ -91,7 +91,7 @@ class CompiledRules:
         return circuits.truths(context)[0]
 
     def conflict(self, literals: Iterable[Obligation], context: Context) -> bool:
-        """Whether these literals, which are due, contradict one another or the constraints. Raises `Undecided`."""
+        """Whether these literals, which are due, contradict each other or the constraints. Raises `Undecided`."""
         due = frozenset(literals)
         if any(Obligation(one.name, negated=True) in due for one in due if not one.negated):
             return True
