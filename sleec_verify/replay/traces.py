@@ -115,10 +115,10 @@ def _is_situation(
 
 
 def _can_decide(index: RulesetIndex, rule: Rule, number: int, trace: Trace, evaluator: TraceEvaluator) -> bool:
-    """Whether a clause decides at some instant, with some of the acts of now that the conditions of its rule name. That
-    it does so in every response that complies with the other rules is a claim about all responses."""
+    """Whether a clause decides at some instant, with some of the acts of now that trigger its rule or are named by its
+    conditions. That it does so in every response that complies with the other rules is a claim about all responses."""
     *history, now = trace.instants
-    acts = sorted(set(named_atoms(rule)) - trace_index_of(index).mere_inputs - now.events)
+    acts = sorted({rule.trigger, *named_atoms(rule)} - trace_index_of(index).mere_inputs - now.events)
     some = chain.from_iterable(combinations(acts, size) for size in range(len(acts) + 1))
     return any(
         evaluator.decides(rule, number, index.ruleset, Trace((*history, replace(now, events=now.events.union(one)))))

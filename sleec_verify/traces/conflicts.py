@@ -10,13 +10,15 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
+from types import MappingProxyType
 from typing import NamedTuple
 
-from sleec_runtime.model import Rule
+from sleec_runtime.model import Obligation, Rule
 from sleec_verify.encoding.budget import OutOfBudget, Undecided, as_far_as_decided, share
 from sleec_verify.encoding.solver import Refutation
 from sleec_verify.results.conflict_freedom import Example, UsedTemplate
 from sleec_verify.traces.act_conditions import Variant, variants_of, without_named_acts
+from sleec_verify.traces.act_decisions import Decisions, clause_at, decisions
 from sleec_verify.traces.complying_responses import complying_responses
 from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.cores import drop_slots, minimal_rules, weakest_facts
@@ -61,7 +63,7 @@ class Conflict(NamedTuple):
     """The rules, each with the clauses that decide; a lawful history up to now; the inputs of now, with the conditions
     and measures that matter; the keys of the relations that matter; the rules that every response triggers now; the
     refutation of a response that complies with the rules; and, if there is a recorder, responses that comply with all
-    rules but one."""
+    rules but one. For the rules whose conditions name acts: their decisions now, and what is pending."""
 
     pairs: tuple[Pair, ...]
     history: tuple[TraceInstant, ...]
@@ -70,6 +72,8 @@ class Conflict(NamedTuple):
     forced: frozenset[str]
     refutation: Refutation
     responses: tuple[Example, ...]
+    decisions: Mapping[str, Decisions] = MappingProxyType({})
+    pending: frozenset[tuple[str, Obligation]] = frozenset()
 
     @property
     def rules(self) -> tuple[str, ...]:
@@ -121,8 +125,10 @@ class ConflictSearch:
         if not self._undecided and self.chained:
             self._find_hidden()
         self._record()
-        every = [frozenset(conflict.pairs) for conflict in self._found]
-        yield from (one for one, pairs in zip(self._found, every) if not any(other < pairs for other in every))
+        by_pairs: dict[frozenset[Pair], Conflict] = {}
+        for conflict in self._found:
+            by_pairs.setdefault(frozenset(conflict.pairs), conflict)
+        yield from (one for pairs, one in by_pairs.items() if not any(other < pairs for other in by_pairs))
         if self._undecided:
             raise self._undecided[0]
 
@@ -173,8 +179,15 @@ class ConflictSearch:
 
     def exclude(self, conflict: Conflict, forced: Collection[str]) -> None:
         """Exclude the situations of a conflict. A rule of `forced` counts even if it is not triggered now."""
-        pairs = ((pair.rule, None if pair.clause == LATER else pair.clause) for pair in conflict.pairs)
-        self._situations.exclude_pairs(pairs, forced)
+        s = self._situations
+        of_acts = {*conflict.decisions, *(label for label, _ in conflict.pending)}
+        pairs = [
+            (pair.rule, None if pair.clause == LATER else pair.clause)
+            for pair in conflict.pairs
+            if pair.rule not in of_acts
+        ]
+        decided = {label: one.allowed for label, one in conflict.decisions.items()}
+        s.exclude_pairs(pairs, decided, conflict.pending, forced)
 
     def _examine(self, hidden: bool = False) -> None:
         """Note the conflict in the situation proposed, unless that is none. Not `hidden`: exclude also the situations
@@ -320,7 +333,14 @@ class ConflictSearch:
         moments, time = histories.history()
         counting = set(core)
         left_out = [fact for fact in continuations.facts if fact not in counting and fact[0] != "state"]
-        relations = needed_relations(continuations, rules, left_out)
+        decided = self._decisions(continuations, rules, given, forced)
+        other_acts = [
+            ([other for other in rules if other != label], acts)
+            for label, one in decided.items()
+            for acts, clause in one.refused
+            if one.clause is not None and clause != one.clause
+        ]
+        relations = needed_relations(continuations, rules, left_out, other_acts)
         refutation = continuations.model.refutation
         assert refutation is not None, "no response complies"
         pending = {Pair(s.slots[n].rule.label, s.slots[n].pending.number) for n in slots}
@@ -339,8 +359,23 @@ class ConflictSearch:
         if self._index.recorder is not None:
             with as_far_as_decided(), share(PART):
                 responses += complying_responses(continuations, rules)
-        shown = self._of_the_text(continuations, rules, pairs)
-        return Conflict(shown, history, _without_states(now), stated, forced, refutation, tuple(responses))
+        shown = self._of_the_text(pairs, decided, slots, histories)
+        pending_of_acts = frozenset(
+            (slot.rule.label, slot.pending.obligation)
+            for slot in (s.slots[number] for number in slots)
+            if self._variants[slot.rule.label]
+        )
+        return Conflict(
+            shown,
+            history,
+            _without_states(now),
+            stated,
+            forced,
+            refutation,
+            tuple(responses),
+            decided,
+            pending_of_acts,
+        )
 
     def _needed_occurrences(
         self, continuations: Continuations, rules: list[str], core: Collection[Fact]
@@ -391,30 +426,33 @@ class ConflictSearch:
         order = {label: place for place, label in enumerate(self._index.ruleset.by_label)}
         return tuple(sorted(pairs, key=lambda pair: (order[pair.rule], pair.clause)))
 
-    def _of_the_text(self, continuations: Continuations, rules: list[str], pairs: Iterable[Pair]) -> tuple[Pair, ...]:
-        """The pairs with the clauses of the text. A rule whose conditions name acts has the clause that decides in
-        every response that complies with the other rules, if that is one."""
-        return self._in_order(
-            {
-                Pair(pair.rule, self._clause_in_every_response(continuations, rules, pair.rule))
-                if pair.clause != LATER and self._variants[pair.rule]
-                else pair
-                for pair in pairs
-            }
-        )
+    def _decisions(
+        self, continuations: Continuations, rules: list[str], given: set[str], forced: Collection[str]
+    ) -> dict[str, Decisions]:
+        """The decisions of the rules that are triggered now and whose conditions name acts."""
+        return {
+            label: decisions(continuations, [other for other in rules if other != label], label, self._variants[label])
+            for label in rules
+            if self._variants[label] and (self._index.ruleset.by_label[label].trigger in given or label in forced)
+        }
 
-    def _clause_in_every_response(self, continuations: Continuations, rules: list[str], label: str) -> int:
-        s = self._situations
-        others = [other for other in rules if other != label]
-        now = continuations.model.instants[continuations.now]
-        clauses: set[int] = set()
-        for variant, guards in zip(self._variants[label], s.variant_guards[label]):
-            acts = [now.event(act) if occurs else -now.event(act) for act, occurs in variant.acts.items()]
-            if continuations.complies(others, (), *acts):
-                clauses.update(number for number, guard in enumerate(guards) if s.holds(guard))
-                if not any(map(s.holds, guards)):
-                    return LATER
-        return clauses.pop() if len(clauses) == 1 else LATER
+    def _of_the_text(
+        self, pairs: Iterable[Pair], decided: Mapping[str, Decisions], slots: Iterable[int], histories: Histories
+    ) -> tuple[Pair, ...]:
+        """The pairs with the clauses of the text. A rule whose conditions name acts has the clause that decides in
+        every response that complies with the other rules, if that is one, and those of what is pending."""
+        found = {pair for pair in pairs if pair.clause == LATER or not self._variants[pair.rule]}
+        for number in slots:
+            label = self._situations.slots[number].rule.label
+            if self._variants[label]:
+                ruleset = self._index.ruleset
+                moment = histories.trigger_of[number]
+                clause = clause_at(moment, self._variants[label], ruleset.reading, ruleset.measures)
+                assert clause is not None, "some clause demands what is pending"
+                found.add(Pair(label, clause))
+        found |= {Pair(label, one.clause) for label, one in decided.items() if one.clause is not None}
+        some = {pair.rule for pair in found}
+        return self._in_order(found | {Pair(label, LATER) for label in decided if label not in some})
 
     @staticmethod
     def _is_forced(continuations: Continuations, rules: list[str], rule: Rule) -> bool:

@@ -32,6 +32,9 @@ class Histories(TraceModel):
         self._situations = situations
         self._of = frozenset(rules)
         self._slots: dict[int, Slot] = {}
+        self._nodes_of_slots: dict[int, int] = {}
+        self.trigger_of: dict[int, TraceInstant] = {}
+        """The instants of `history` that triggered the slots, by the numbers of these."""
         self.now = self.before = self.node()
         self._mode: list[int] = []
         self.facts: dict[Fact, int] = {}
@@ -40,7 +43,9 @@ class Histories(TraceModel):
         for fact in wanted:
             if fact[0] == "slot" and fact[-1]:
                 slot = situations.slots[int(str(fact[1]))]
-                self._slots[nodes.setdefault(slot.node, self.node())] = slot
+                node = nodes.setdefault(slot.node, self.node())
+                self._slots[node] = slot
+                self._nodes_of_slots[int(str(fact[1]))] = node
             elif fact[0] == "lasts" and fact[-1]:
                 nodes.setdefault(situations.lasting[str(fact[1])][2], self.node())
         self._triggers_of = {
@@ -269,4 +274,7 @@ class Histories(TraceModel):
         nodes = sorted((n for n in self.used() if n in self.instants and self.events(n)), key=lambda n: times[n])
         begin = min((times[node] for node in nodes), default=times[self.now])
         moments = [self.at(node, times[node] - begin) for node in nodes]
+        by_time = {moment.time: moment for moment in moments}
+        for number, node in self._nodes_of_slots.items():
+            self.trigger_of[number] = by_time[times[self._triggers_of[node]] - begin]
         return moments, times[self.now] - begin

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
 
-from sleec_runtime.model import Atom, EventRelation, Lasting, leaves
+from sleec_runtime.model import Atom, EventRelation, Lasting, Obligation, leaves
 from sleec_runtime.model import Formula as Condition
 from sleec_verify.encoding.relations import formulas_of_relation
 from sleec_verify.encoding.solver import MiniSat, Undecided
@@ -57,6 +57,7 @@ class Situations:
         self.variant_guards = {
             label: [self.instant.guards(variant.rule, self.reading, self.true) for variant in each]
             for label, each in variants.items()
+            if each
         }
         """For each variant of a rule, the literals that its clauses decide now."""
         self.occurred = {
@@ -74,6 +75,7 @@ class Situations:
         for law, active, node in self.lasting.values():
             self._pending_since(node, active, None if law.duration is None else last_second(law.duration))
         self._present: dict[tuple[str, int, bool], int] = {}
+        self._pending: dict[tuple[str, Obligation], int] = {}
         self.slots: list[Slot] = []
         self.several: list[Pending] = []
         """Responses of which a history can leave several demands, none of which implies the others."""
@@ -107,10 +109,13 @@ class Situations:
         allowed = self._allows_inputs(slot, slot.demand)
         if allowed != self.true:
             self.add([-slot.active, -selected, allowed])
+        label = slot.rule.label
         for forced in (False, True):
-            present = self._present.get((slot.rule.label, pending.number, forced))
+            present = self._present.get((label, pending.number, forced))
             if present is not None:
                 self.add([-selected, -slot.active, present])
+        if (label, pending.obligation) in self._pending:
+            self.add([-selected, -slot.active, self._pending[label, pending.obligation]])
         return slot
 
     def _pending_since(self, node: int, active: int, last: int | None) -> None:
@@ -210,13 +215,23 @@ class Situations:
         """No further situation has all these facts."""
         self.add([-self.literal(fact) for fact in facts])
 
-    def exclude_pairs(self, pairs: Iterable[tuple[str, int | None]], forced: Collection[str]) -> None:
+    def exclude_pairs(
+        self,
+        pairs: Iterable[tuple[str, int | None]],
+        decided: Mapping[str, Sequence[tuple[int, int | None]]],
+        pending: Iterable[tuple[str, Obligation]],
+        forced: Collection[str],
+    ) -> None:
         """No further situation has all these rules, with their clauses that decide now or decided what is pending; None
-        is any.
+        is any. For rules whose conditions name acts, `decided` has for some of the variants the clause that decides
+        now, or None, and `pending` has what is pending.
 
         A rule of `forced` counts wherever its clause decides if the rule is triggered now, even if it is not.
         """
-        self.add([-self._present_literal(label, number, label in forced) for label, number in pairs])
+        present = [self._present_literal(label, number, label in forced) for label, number in pairs]
+        present += (self._decided_literal(label, tuple(one), label in forced) for label, one in decided.items())
+        present += (self._pending_literal(label, obligation) for label, obligation in pending)
+        self.add([-literal for literal in present])
 
     def _present_literal(self, label: str, number: int | None, forced: bool) -> int:
         selected = self.selected[label]
@@ -225,14 +240,34 @@ class Situations:
         key = label, number, forced
         if key not in self._present:
             literal = self._present[key] = self.formula.fresh()
-            triggered = [] if forced else [-self.inputs[self.index.ruleset.by_label[label].trigger]]
-            variants = self.variant_guards.get(label)
-            for guards in variants or [self.guards[label]]:
-                self.add([-selected, *triggered, -guards[number], literal])
+            self.add([-selected, *self._untriggered(label, forced), -self.guards[label][number], literal])
             for slot in self.slots:
-                if slot.rule.label == label and (variants or slot.pending.number == number):
+                if (slot.rule.label, slot.pending.number) == (label, number):
                     self.add([-selected, -slot.active, literal])
         return self._present[key]
+
+    def _decided_literal(self, label: str, decided: tuple[tuple[int, int | None], ...], forced: bool) -> int:
+        """A literal that these decisions of a rule that is triggered now imply."""
+        literal = self.formula.fresh()
+        away: list[int] = []
+        for variant, number in decided:
+            guards = self.variant_guards[label][variant]
+            away += guards if number is None else [-guards[number]]
+        self.add([-self.selected[label], *self._untriggered(label, forced), *away, literal])
+        return literal
+
+    def _pending_literal(self, label: str, obligation: Obligation) -> int:
+        """A literal that is true if the demand of an obligation of a rule is pending."""
+        key = label, obligation
+        if key not in self._pending:
+            literal = self._pending[key] = self.formula.fresh()
+            for slot in self.slots:
+                if (slot.rule.label, slot.pending.obligation) == key:
+                    self.add([-self.selected[label], -slot.active, literal])
+        return self._pending[key]
+
+    def _untriggered(self, label: str, forced: bool) -> list[int]:
+        return [] if forced else [-self.inputs[self.index.ruleset.by_label[label].trigger]]
 
     def facts(self) -> list[Fact]:
         """The facts of the situation of the last `find`, without those on which no slot or rule depends."""

@@ -13,20 +13,35 @@ from sleec_verify.encoding.formula_truth import truth_in
 from sleec_verify.encoding.relations import events_of, formula_at_one_instant
 from sleec_verify.encoding.solver import MiniSat
 from sleec_verify.encoding.window_lengths import measures_of_lengths
+from sleec_verify.traces.act_decisions import acts_now
 from sleec_verify.traces.continuations import Continuations
 from sleec_verify.traces.index import TraceIndex
 from sleec_verify.traces.instant import Instant, SharedClauses
 from sleec_verify.traces.situations import Fact, Situations
 
 
-def needed_relations(continuations: Continuations, rules: Collection[str], but: Collection[Fact]) -> tuple[str, ...]:
-    """The keys of a minimal set of relations with which no response complies with `rules`."""
+def needed_relations(
+    continuations: Continuations,
+    rules: Collection[str],
+    but: Collection[Fact],
+    other_acts: Collection[tuple[Collection[str], Mapping[str, bool]]] = (),
+) -> tuple[str, ...]:
+    """The keys of a minimal set of relations with which no response complies with `rules`, and none that complies with
+    the rules of `other_acts` has these acts."""
+    others = [(counting, list(acts_now(continuations, acts))) for counting, acts in other_acts]
+    kept: list[str] = []
+    for counting, literals in others:
+        stuck = not continuations.complies(counting, (), *literals)
+        assert stuck, "no response has other acts"
+        kept += continuations.relations_in_core()
     stuck = not continuations.complies(rules, but)
     assert stuck, "asked of a conflict"
-    kept = continuations.relations_in_core()
+    kept = list(dict.fromkeys([*continuations.relations_in_core(), *kept]))
     for key in list(kept):
         less = [other for other in kept if other != key]
         with as_far_as_decided():
+            if any(continuations.complies(counting, (), *acts, relations=less) for counting, acts in others):
+                continue
             if not continuations.complies(rules, but, relations=less):
                 kept = less
     return tuple(kept)

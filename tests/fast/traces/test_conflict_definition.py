@@ -207,3 +207,47 @@ def test_a_rule_that_a_response_triggers_again_has_the_clause_that_decides_then(
     (finding,) = conflict_check(text).findings
     assert finding.rules == (R2,)
     assert sorted(one.clause for one in finding.clauses) == [0, 1]
+
+
+def pairs_of(text: str) -> set[frozenset[tuple[str, int]]]:
+    return {frozenset((one.rule, one.clause) for one in finding.clauses) for finding in conflict_check(text).findings}
+
+
+@pytest.mark.parametrize("order", list(permutations(range(2))))
+@pytest.mark.parametrize(
+    ("rules", "relation", "expected"),
+    [
+        # The default is pending, and the response decides whether the exception applies now.
+        (
+            (
+                "R1 when C then not A unless {b1} then B",
+                "R2 when C then not B within 2 seconds unless (A or {a}) then B",
+            ),
+            "",
+            [{(R2, 0), (R2, 1)}, {(R1, 1), (R2, 0)}],
+        ),
+        # The relation excludes A, so the default decides unless a holds.
+        (
+            ("R1 when B and C then A unless (A or {a}) then not C", "R2 when C then X"),
+            "mutualExclusive A B",
+            [{(R1, 0)}, {(R1, 1)}],
+        ),
+    ],
+)
+def test_each_conflict_of_a_rule_that_names_an_act_is_found_in_any_order(
+    rules: tuple[str, ...], relation: str, expected: list[set[tuple[str, int]]], order: tuple[int, ...]
+) -> None:
+    text = dsl("A then X").split("rule_start")[0].replace("def_end", "measure b1: boolean\ndef_end")
+    text += "rule_start\n" + "\n".join(rules[one] for one in order) + "\nrule_end\n"
+    text += f"relation_start\n{relation}\nrelation_end\n" if relation else ""
+    assert pairs_of(text) == {frozenset(one) for one in expected}
+    assert not any("again and again" in finding.message for finding in conflict_check(text).findings)
+
+
+def test_a_response_that_triggers_a_rule_with_a_pending_demand_has_a_witness() -> None:
+    """The exception of R2 decides only once the response of R1 triggers it again."""
+    text = english(
+        "WHEN B THEN A AND C ELSE D",
+        "WHEN A THEN NOT C WITHIN 2 seconds UNLESS a IN WHICH CASE NOT D",
+    )
+    assert pairs_of(text) == {frozenset({(R1, 0), (R2, 0), (R2, 1)})}
