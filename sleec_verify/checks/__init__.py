@@ -10,7 +10,7 @@ from time import perf_counter
 
 from sleec_runtime.model import Ruleset
 from sleec_verify.checks.always import of_statements
-from sleec_verify.checks.assumptions import ASSUMPTIONS
+from sleec_verify.checks.assumptions import ASSUMPTIONS, contradict_each_other
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.checks.claims import CONCERN, PURPOSE
 from sleec_verify.checks.conflict import CONFLICT
@@ -241,6 +241,9 @@ def _verdict(
     unknown: list[str] = []
     cut: str | None = None
     for domain, index in by_domain.items():
+        if check is not ASSUMPTIONS and check.scope != "text" and contradict_each_other(index):
+            # Without situations, no other finding means anything.
+            continue
         try:
             # A check that is left early gives its share of the budget back when it is closed.
             with closing(_findings(check, index)) as proposed:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 
 from sleec_runtime.model import MeasureRelation
 from sleec_verify.checks.base import Check, FindingKind
@@ -18,8 +19,7 @@ from sleec_verify.wording.sentence import sentence
 def _contradictory(index: RulesetIndex) -> Iterator[Finding]:
     """Unsatisfiable exactly when no situation is possible: the assumptions, and the relations between measures. A model
     is a possible situation."""
-    if any(isinstance(statement, MeasureRelation) for statement in index.ruleset.statements):
-        index = without(index, index.rules, ())
+    index = index.once(_facts)
     if not index.assumptions or is_possible(index):
         return
     needed, minimal = _at_odds(index)
@@ -39,6 +39,21 @@ def _contradictory(index: RulesetIndex) -> Iterator[Finding]:
         else sentence("{note}; some of these assumptions may contradict each other without the rest", note=note),
         related=tuple((span, sentence("part of the contradiction")) for span in spans[1:]),
     )
+
+
+def contradict_each_other(index: RulesetIndex) -> bool:
+    """Whether the assumptions, with the relations between measures, leave no situation. False if this is undecided."""
+    facts = index.once(_facts)
+    with suppress(Undecided):
+        return bool(facts.assumptions) and not is_possible(facts)
+    return False
+
+
+def _facts(index: RulesetIndex) -> RulesetIndex:
+    """The ruleset with its relations between measures as assumptions, without its rules if there are any."""
+    if any(isinstance(statement, MeasureRelation) for statement in index.ruleset.statements):
+        return without(index, index.rules, ())
+    return index
 
 
 def _at_odds(index: RulesetIndex) -> tuple[list[int], bool]:
