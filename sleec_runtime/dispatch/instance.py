@@ -219,6 +219,10 @@ class Instance:
         wrappers."""
         return Variant(label, self.layers.of(layer), own_entries(in_order(functions)), None, None, tuple(plain))
 
+    def implementing(self) -> list[object]:
+        """The objects and modules given to `implement`, and the callables of obligations."""
+        return [*self._robots, *self._callables.values()]
+
     def objects(self) -> list[object]:
         """The objects that methods are bound to, each once."""
         return list({id(m.instance): m.instance for m in self._methods.values() if m.instance is not None}.values())

@@ -89,6 +89,10 @@ class Host:
         """The objects whose methods are bound to rules."""
         return self._instance.objects()
 
+    def implementing(self) -> list[object]:
+        """What was given to `implement`: objects and modules, and the callables of obligations."""
+        return self._instance.implementing()
+
     @property
     def takes_time(self) -> frozenset[str]:
         """The obligations whose callables do not complete them: `completed` does."""

@@ -6,17 +6,18 @@ import contextvars
 import sys
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from inspect import Parameter, signature
 from typing import TYPE_CHECKING, Any, Protocol, cast, runtime_checkable
 
 from sleec_runtime import VirtualClock
-from sleec_runtime.dispatch.implementations import watched
 from sleec_runtime.dispatch.recording import recording
 from sleec_runtime.errors import NeedsAwait, NotEnforced, SleecError
 from sleec_runtime.model import Context, Reading, Ruleset, Value, constructs
+from sleec_verify.conformance.instrumentation import instrumented, robots_of
 from sleec_verify.conformance.oracle import Oracle
+from sleec_verify.conformance.other_threads import awaited, followed
 
 if TYPE_CHECKING:
     import asyncio
@@ -162,9 +163,8 @@ class Bench:
     def observed(self, subject: Subject, obligations: Iterable[str]) -> Iterator[Subject]:
         """A subject, of which recordings see each execution of `obligations` until the end of the block."""
         objects: list[object] = getattr(subject, "bound_objects", list)()
-        with ExitStack() as stack:
-            for robot in {id(robot): robot for robot in (*objects, *self.watch)}.values():
-                stack.enter_context(watched(robot, obligations))
+        given: list[object] = getattr(subject, "implementing", list)()
+        with followed(), instrumented((*objects, *given, *robots_of(given), *self.watch), obligations):
             yield subject
 
 
@@ -229,7 +229,7 @@ class Running:
                 del seen.executed[before:]
                 meanwhile = False
 
-        with recording(on_execution=between) as seen:
+        with recording(on_execution=between) as seen, awaited():
             try:
                 self._dispatch(names, arguments)
             except Exception as raised:  # noqa: BLE001 - part of what was observed

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from contextlib import contextmanager
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -140,9 +141,8 @@ def check_conformance(
     """Runs the conformance test. Raises `Nonconformance` for the smallest failure, and `SleecError` if the test
     cannot run. The arguments are those of `conformance_test`."""
     bench = _bench(make, ruleset, domain, reading, watch, arguments)
-    for name in _chosen(parts):
-        if _why_not(name, bench) is None:
-            PARTS[name](bench, examples)
+    for name in _applicable(_chosen(parts), bench):
+        PARTS[name](bench, examples)
 
 
 def conformance_test(
@@ -163,27 +163,23 @@ def conformance_test(
     implement obligations and are not bound. `arguments` are given to each trigger; they may be a function of the
     triggers. `examples` sets the size of the random parts, and `parts` selects the parts.
 
-    Raises `UnknownPart`. Nothing is loaded or created before the test runs.
+    Raises `UnknownPart`. pytest collects the parts that apply to the rules; nothing is loaded or created before that.
     """
     import pytest
 
-    chosen = _chosen(parts)
     watched = tuple(watch)
 
-    @pytest.mark.parametrize("part", chosen)
+    def bench() -> Bench:
+        return _bench(make, ruleset, domain, reading, watched, arguments)
+
+    @pytest.mark.parametrize("part", _Parts(_chosen(parts), bench))
     def test_conformance(part: str) -> None:
         __tracebackhide__ = True
-        bench = _bench(make, ruleset, domain, reading, watched, arguments)
-        reason = None
         try:
-            reason = _why_not(part, bench)
-            if reason is None:
-                PARTS[part](bench, examples)
+            PARTS[part](bench(), examples)
         except (Nonconformance, SleecError) as error:
             message = str(error)
         else:
-            if reason is not None:
-                pytest.skip(reason)
             return
         pytest.fail(message, pytrace=False)
 
@@ -206,11 +202,34 @@ def _repeatable() -> Iterator[None]:
         ) from None
 
 
-def _why_not(part: str, bench: Bench) -> str | None:
-    """Why a part does not apply to the rules of a bench."""
-    if is_timed(bench):
-        return None if part in WITH_TIME else "this part is for rules without time"
-    return "the rules have no time" if part == "scenarios" else None
+class _Parts(Collection[str]):
+    """The chosen parts that apply to the rules, which are read when pytest collects the test."""
+
+    def __init__(self, chosen: list[str], bench: Callable[[], Bench]) -> None:
+        self._chosen = chosen
+        self._bench = bench
+
+    @cached_property
+    def _found(self) -> list[str]:
+        try:
+            return _applicable(self._chosen, self._bench())
+        except Exception:  # noqa: BLE001 - each part fails with it
+            return self._chosen
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._found)
+
+    def __len__(self) -> int:
+        return len(self._found)
+
+    def __contains__(self, part: object) -> bool:
+        return part in self._found
+
+
+def _applicable(chosen: list[str], bench: Bench) -> list[str]:
+    """The parts that apply to the rules of a bench."""
+    timed = is_timed(bench)
+    return [name for name in chosen if (name in WITH_TIME if timed else name != "scenarios")]
 
 
 def _chosen(parts: Iterable[str] | None) -> list[str]:

@@ -9,6 +9,7 @@ from sleec_runtime.dispatch.recording import recording
 from sleec_runtime.errors import ConflictInContext, NeedsAwait, SleecError, UndeterminedDecision, VariantsFailed
 from sleec_runtime.model import Value
 from sleec_runtime.timed.clock import Time
+from sleec_verify.conformance.other_threads import awaited
 from sleec_verify.conformance.scenarios.clock import ScenarioClock, second
 from sleec_verify.conformance.scenarios.course import Course, Happening, Kind
 from sleec_verify.conformance.scenarios.event_loop import ScenarioLoop
@@ -188,7 +189,7 @@ class Player:
             )
         act = self._act
         report = partial(self._failed, failed)
-        with recording(on_execution=partial(self._starts, act), on_end=partial(self._ends, act)):
+        with recording(on_execution=partial(self._starts, act), on_end=partial(self._ends, act)), awaited():
             if self._loop is not None:
                 self._loop.act(call, report)
                 return
