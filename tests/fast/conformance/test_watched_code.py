@@ -101,15 +101,6 @@ ROBOTS = [CallsItself, CallsThroughTheClass, CallsThroughSuper, WithSlots, WithC
 
 @pytest.mark.parametrize("rules", [UNTIMED, TIMED], ids=["untimed", "timed"])
 @pytest.mark.parametrize("give", [whole, methods])
-@pytest.mark.parametrize(
-    "robot", [CallsItself, CallsThroughTheClass, CallsThroughSuper, WithSlots, WithCoroutines, module]
-)
-def test_what_an_implementation_does_beside_its_obligation_is_seen(robot: Any, give: Any, rules: Any) -> None:
-    with pytest.raises(Nonconformance, match="although not required"):
-        check(robot, give, rules)
-
-
-@pytest.mark.parametrize("rules", [UNTIMED, TIMED], ids=["untimed", "timed"])
 @pytest.mark.parametrize("robot", ROBOTS)
 def test_what_an_implementation_does_beside_its_obligation_is_seen(robot: Any, give: Any, rules: Any) -> None:
     with pytest.raises(Nonconformance, match="although not required"):
