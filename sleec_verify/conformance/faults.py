@@ -11,13 +11,14 @@ from sleec_verify.conformance.exhaustive import first_contexts, tried
 from sleec_verify.conformance.failure import Nonconformance
 from sleec_verify.conformance.feasible_contexts import Assumptions
 from sleec_verify.conformance.oracle import Expectation
+from sleec_verify.conformance.other_threads import Provoked
 from sleec_verify.conformance.subject import Bench, Running
 
 MOST = 8
 """The maximal number of contexts for each group of rules: one for each set of active clauses."""
 
 
-class InjectedFault(Exception):
+class InjectedFault(Provoked):
     """The exception that the test raises in an implementation."""
 
 

@@ -6,7 +6,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor, wait
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from contextvars import ContextVar, copy_context
 from functools import partial
 from typing import Any
@@ -19,6 +19,10 @@ _Started = list["threading.Thread | Future[Any]"]
 _started: ContextVar[_Started | None] = ContextVar("sleec_started_threads", default=None)
 
 
+class Provoked(Exception):
+    """An exception that the test raises in the code of the robot. It ends a thread without a report."""
+
+
 @contextmanager
 def followed() -> Iterator[None]:
     """Within the block, threads and tasks of pools that are started within `awaited` run in the context of their
@@ -29,7 +33,7 @@ def followed() -> Iterator[None]:
         found = _started.get()
         if found is not None and not _is_of_a_pool(thread):
             found.append(thread)
-            thread.run = partial(copy_context().run, thread.run)  # type: ignore[method-assign]
+            thread.run = partial(copy_context().run, _run, thread.run)  # type: ignore[method-assign]
         start(thread)
 
     def submitted(pool: ThreadPoolExecutor, call: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
@@ -65,6 +69,11 @@ def awaited() -> Iterator[None]:
                 wait([one], left)
             elif one is not threading.current_thread():
                 one.join(left)
+
+
+def _run(work: Callable[[], object]) -> None:
+    with suppress(Provoked):
+        work()
 
 
 def _is_of_a_pool(thread: threading.Thread) -> bool:

@@ -9,7 +9,7 @@ from sleec_runtime.dispatch.recording import recording
 from sleec_runtime.errors import ConflictInContext, NeedsAwait, SleecError, UndeterminedDecision, VariantsFailed
 from sleec_runtime.model import Value
 from sleec_runtime.timed.clock import Time
-from sleec_verify.conformance.other_threads import awaited
+from sleec_verify.conformance.other_threads import Provoked, awaited
 from sleec_verify.conformance.scenarios.clock import ScenarioClock, second
 from sleec_verify.conformance.scenarios.course import Course, Happening, Kind
 from sleec_verify.conformance.scenarios.event_loop import ScenarioLoop
@@ -20,7 +20,7 @@ _FOR_EVER = float("inf")
 _MOST_ACTS = 10_000
 
 
-class WithheldCompletion(Exception):
+class WithheldCompletion(Provoked):
     """The exception that a scenario raises in a callable that would complete what the scenario does not complete."""
 
 
