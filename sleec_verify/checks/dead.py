@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from sleec_runtime.model import RELATIONS, Clause, Formula, MeasureRelation, Rule, in_text_order
+from sleec_runtime.model import RELATIONS, Assume, Clause, Formula, MeasureRelation, Rule, in_text_order
 from sleec_verify.checks.base import Check, FindingKind
 from sleec_verify.checks.questions import ask_both_parts, ask_each, ask_each_shape
 from sleec_verify.checks.relevant_rules import in_words
@@ -150,13 +150,19 @@ def _hedges_in_situations(index: RulesetIndex) -> Iterator[Finding]:
             nested = list(_guards_inside(question, guards, clauses)) if inside else []
             for number, guard in enumerate(guards):
                 if number and not question.ask(guard):
+                    name, found = clause_name(rule, number), _causes(index, position, number)
+                    causes = listed(found) if found else ""
                     yield DEAD_HEDGE.finding(
-                        sentence("{clause} never applies", clause=clause_name(rule, number)),
+                        sentence("{clause} never applies because of {causes}", clause=name, causes=causes)
+                        if causes
+                        else sentence("{clause} never applies", clause=name),
                         clauses[number].span,
                         rules=(rule.label,),
                         clauses=(ClauseRef(rule.label, number),),
                         note=_why(index, position, number),
-                        help=sentence("correct its condition, or remove it"),
+                        help=sentence("correct its condition or {causes}, or remove it", causes=causes)
+                        if causes
+                        else sentence("correct its condition, or remove it"),
                     )
             for number, hedge, guard in nested:
                 # If the clause itself never decides, this is reported already.
@@ -210,6 +216,55 @@ def _hedges_inside(question: Question, guard: int, clause: Clause) -> Iterator[t
                 if member is not alternative:
                     yield member, here
                 yield from _hedges_inside(question, here, member)
+
+
+def _causes(index: RulesetIndex, position: int, number: int) -> list[str]:
+    """What makes a hedge dead whose condition can be true without it, in words: a minimal set of assumptions, and the
+    exceptions that prevent it."""
+    clauses = index.clauses[position]
+    condition = clauses[number].condition
+    assert condition is not None, "only hedges are asked about"
+    with Question(index, assuming=False) as question:
+        encoder = question.encoder
+        guards = question.guards(position)
+        about = index.assumptions_about(question.names())
+        switches = {encoder.fresh(): assumption for assumption in about}
+        for switch, assumption in switches.items():
+            question.require(-switch, encoder.literal(assumption.formula))
+        applies = [encoder.any_of(guards), encoder.literal(condition)]
+        earlier = {
+            encoder.literal(formula): hedge
+            for hedge in clauses[1:number]
+            for formula in [hedge.condition]
+            if formula in _earlier_in_cascade(index, position, number)
+        }
+        if question.ask(guards[number], *switches):
+            return []
+        needed = question.core_among(switches)
+        for switch in list(needed):
+            less = [kept for kept in needed if kept != switch]
+            if len(less) < len(needed) and not question.ask(guards[number], *less):
+                needed = question.core_among(less)
+        assumed = [_in_words(index, switches[switch]) for switch in needed]
+        if not question.ask(*applies, *switches):
+            return assumed
+        if earlier and not question.ask(*applies, *earlier, *switches):
+            blocking = [earlier[literal] for literal in question.core_among(earlier)]
+        else:
+            blocking = [
+                clause
+                for other, clause in enumerate(clauses)
+                if other and other != number and question.ask(*applies, guards[other], *switches)
+            ]
+    return [*map(exception, blocking), *assumed]
+
+
+def _in_words(index: RulesetIndex, assumption: Assume) -> str:
+    """``the ASSUME in line 3``; a relation between measures is a relation."""
+    source = index.ruleset.source
+    is_written = source.text[assumption.span.start : assumption.span.end].startswith("ASSUME")
+    kind = "ASSUME" if is_written else sentence("relation")
+    return sentence("the {relation} in line {line}", relation=kind, line=source.place(assumption.span).line)
 
 
 def _why(index: RulesetIndex, position: int, number: int) -> str:

@@ -59,3 +59,21 @@ def test_a_rule_that_other_rules_exclude_is_not_dead() -> None:
     text = DSL.format("R1 when A then B within 1 seconds R2 when A then not B within 1 seconds", "mutualExclusive A D")
     assert found(text, "dead-rule") == ()
     assert {finding.rules[0] for finding in found(text, "vacuous-conflict")} == {"R1", "R2"}
+
+
+@pytest.mark.parametrize(
+    ("text", "causes"),
+    [
+        ("WHEN t THEN o UNLESS x > 5 IN WHICH CASE p UNLESS x > 3 IN WHICH CASE q", "the exception `UNLESS x > 3`"),
+        ("WHEN t THEN o UNLESS a IN WHICH CASE p UNLESS NOT a IN WHICH CASE q", "the exception `UNLESS a`"),
+        (
+            "ASSUME day OR NOT night\nASSUME wet\nASSUME NOT (night AND day)\nWHEN t THEN o UNLESS night IN WHICH CASE p",
+            "the ASSUME in line 1 and the ASSUME in line 3",
+        ),
+        ("RELATION ALWAYS NOT night\nWHEN t THEN o UNLESS night IN WHICH CASE p", "the relation in line 1"),
+    ],
+)
+def test_a_dead_exception_names_what_prevents_it(text: str, causes: str) -> None:
+    (finding,) = found(text, "dead-hedge")
+    assert finding.message.endswith(f" never applies because of {causes}")
+    assert finding.help == f"correct its condition or {causes}, or remove it"
