@@ -67,7 +67,7 @@ def test_a_rule_that_other_rules_exclude_is_not_dead() -> None:
         ("WHEN t THEN o UNLESS x > 5 IN WHICH CASE p UNLESS x > 3 IN WHICH CASE q", "the exception `UNLESS x > 3`"),
         ("WHEN t THEN o UNLESS a IN WHICH CASE p UNLESS NOT a IN WHICH CASE q", "the exception `UNLESS a`"),
         (
-            "ASSUME day OR NOT night\nASSUME wet\nASSUME NOT (night AND day)\nWHEN t THEN o UNLESS night IN WHICH CASE p",
+            "ASSUME day OR NOT night\nASSUME wet\nASSUME NOT (night AND day)\nWHEN t THEN o UNLESS night",
             "the ASSUME in line 1 and the ASSUME in line 3",
         ),
         ("RELATION ALWAYS NOT night\nWHEN t THEN o UNLESS night IN WHICH CASE p", "the relation in line 1"),
