@@ -204,7 +204,11 @@ class Unrolling(ABC):
             self._needs.remove(need)
             rest = need.rest
             # The needs of the new instant are met there, or at one of the others.
-            self.add([-rest, need.witness(self.instant())])
+            node = self.instant()
+            self.add([-rest, need.witness(node)])
+            # Each instant of a minimal trace is there for a need, and is that of the first such need. Otherwise
+            # an event could always move to the newest instant, whose own needs are not met yet.
+            self.add([-self.instants[node].used, rest])
 
     def _given_up(self) -> Undecided:
         return Undecided(

@@ -276,3 +276,19 @@ def test_an_input_that_a_condition_names_and_a_response_forbids_is_an_input(rule
     traces = trace_index_of(RulesetIndex(ruleset))
     for part in components(traces.part(traces.rules, traces.relations)):
         assert part.mere_inputs == part.stated.mere_inputs == traces.mere_inputs == {"A", "C"}
+
+
+@pytest.mark.parametrize("scale", [1, 2, 60])
+def test_the_unit_of_time_does_not_decide_whether_a_concern_is_decided(scale: int) -> None:
+    one, five, ten, thirty = (f"{number * scale} seconds" for number in (1, 5, 10, 30))
+    text = f"""def_start event A event C event D def_end
+rule_start
+R1 when C then A within [{one}, {ten}] otherwise D within {five}
+R2 when A then D within {one}
+rule_end
+concern_start
+C1 when C then not D within [{one}, {thirty}]
+concern_end
+"""
+    (result,) = run_checks(parse(text), ["concern"])
+    assert isinstance(result.verdict, Proved)
