@@ -25,6 +25,7 @@ from sleec_runtime.model import (
 from sleec_verify.encoding.cnf import Encoder
 from sleec_verify.encoding.relations import exclusions
 from sleec_verify.encoding.solver import MiniSat, Undecided
+from sleec_verify.wording.sentence import sentence
 
 
 class _Circuits:
@@ -51,7 +52,7 @@ class _Circuits:
         ]
         answer = self._solver.solve([*self._encoder.assumptions(context), *self._literals, *chosen])
         if answer is None:
-            raise Undecided("the constraints of one instant are too entangled")
+            raise Undecided(sentence("the solver reached its limit of conflicts"))
         return answer
 
 
