@@ -100,6 +100,9 @@ def needed_values(
                 less = refuted(kept - {name}) if name in kept else None
                 kept = kept if less is None else less
     kept |= _of_constant_conditions(situations, rules, kept | lengths, values)
+    # Which clause of a rule that names acts decides is a question of its own, and no fact of the refutation.
+    naming = [index.ruleset.by_label[label] for label in rules if situations.variant_guards.get(label)]
+    kept |= {name for rule in naming for formula in index.formulas(rule) for name in names_of(formula)} & values.keys()
     closed = _closed(situations, kept | lengths, values, past)
     # The values of further measures must satisfy the relations, too.
     closed = _closed(situations, _with_compared(situations.index, deciding, closed, values), values, past)

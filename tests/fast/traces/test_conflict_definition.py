@@ -251,3 +251,16 @@ def test_a_response_that_triggers_a_rule_with_a_pending_demand_has_a_witness() -
         "WHEN A THEN NOT C WITHIN 2 seconds UNLESS a IN WHICH CASE NOT D",
     )
     assert pairs_of(text) == {frozenset({(R1, 0), (R2, 0), (R2, 1)})}
+
+
+@pytest.mark.parametrize(
+    "rules",
+    [
+        ("ASSUME w >= 0 AND w <= 2", "WHEN A AND B AND w >= 0 THEN NOT B", "WHEN A THEN B"),
+        ("READING priority", "WHEN A AND (B OR m) THEN NOT B AND B UNLESS m IN WHICH CASE (NOT B AND B)"),
+        ("READING priority", "WHEN A AND (m OR C OR A) THEN C UNLESS m IN WHICH CASE C", "WHEN A THEN NOT C"),
+    ],
+)
+def test_a_rule_that_names_an_act_has_all_its_values_in_the_witness(rules: tuple[str, ...]) -> None:
+    """Without them, the evaluator would decide another clause than the solver."""
+    assert conflicts(EVENTS + english(*rules))
