@@ -54,8 +54,10 @@ def over_time(ruleset: Ruleset, context: Context, answer: Entailment, untimed: U
     if not _needs_traces(part, untimed):
         return answer
     acts = sorted(set(part.naming) - part.mere_inputs - context.triggers)
-    if answer.conflicts and not acts and untimed == "at":
-        # They contradict each other at once, whatever else the robot does.
+    about = {name for finding in answer.conflicts for name in finding.obligations}
+    if answer.conflicts and not acts and untimed == "at" and about.isdisjoint(context.triggers):
+        # They contradict each other at once, whatever else the robot does. If what they contradict each other about
+        # occurs already, one of the rules forbids an input, which is no contradiction of rules.
         return answer
     try:
         return _Situation(whole, part, context, answer).answered(acts)

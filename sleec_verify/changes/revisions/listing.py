@@ -193,7 +193,6 @@ class CurrentListing(NamedTuple):
     def _behind(self, link: Entry, shown: str) -> dict[str, Version]:
         """The rulesets of the folder that a link leads to."""
         if not leads_below(shown, self.top):
-            self.skipped(shown)
             return {}
         target = os.path.relpath(os.path.realpath(shown), self.folder)
         found: dict[str, Version] = {}

@@ -71,6 +71,7 @@ def test_a_link_that_leaves_the_folder_is_skipped(command: str, target: str, cli
 @pytest.mark.parametrize("command", COMMANDS)
 def test_a_link_to_a_ruleset_of_the_folder_is_no_news(command: str, cli: Cli, repository: Repository) -> None:
     (repository.folder / "b.sleec").symlink_to("a.sleec")
+    repository.commit()
     ran = cli(*COMMANDS[command])
     assert (ran.code, "note" in ran.err) == (0, False), ran
 

@@ -171,7 +171,7 @@ def test_interruption_before_the_run(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_question_that_was_given_up_is_unknown(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
-    def give_up(*_: object) -> None:
+    def give_up(*_: object, **__: object) -> None:
         raise Undecided("too entangled to say")
 
     monkeypatch.setattr("sleec_verify.entailment.explanation.entail", give_up)
