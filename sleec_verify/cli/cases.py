@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import click
@@ -14,6 +15,7 @@ from sleec_verify.wording.phrases import counted
 
 if TYPE_CHECKING:
     from sleec_runtime.model import Reading, Ruleset
+    from sleec_verify.conformance.cases.selection import UnreachedGoal
 
 
 @click.command(
@@ -52,6 +54,8 @@ def command(
     each situation. If the rules have times, choose scenarios: events and values at given times, with the window of each
     obligation.
 
+    Exit codes: 0 every goal is decided; 2 invalid input or usage; 3 a goal is unknown.
+
     The pytest plugin collects the TOML output from files named *.cases.toml. The output lists what no situation can
     cover.
     """
@@ -62,15 +66,18 @@ def command(
     ruleset = one_ruleset(path, reading, domain)
     where = domain if domain in ruleset.domains else None
     choose = _scenarios if any(constructs(ruleset)) else _situations
-    text, in_short = choose(ruleset, criterion, where, single, form, _from(output, path))
+    text, reached, unreached = choose(ruleset, criterion, where, single, form, _from(output, path))
     if output is None:
         write_data((text,))
     else:
         from sleec_verify.files.placement import write_new, write_whole
 
         (write_whole if force else write_new)(output, text.encode())
-    tell(in_short)
-    return exits.HOLDS
+    unknown = sum(one.is_unknown for one in unreached)
+    number, goals = reached
+    total = f"{goals} of {goals + len(unreached)} goals covered"
+    tell(f"{number}: {total}, {unknown} unknown" if unknown else f"{number}: {total}")
+    return exits.UNKNOWN if unknown else exits.HOLDS
 
 
 def _from(output: str | None, path: str) -> str | None:
@@ -84,27 +91,24 @@ def _from(output: str | None, path: str) -> str | None:
 
 def _situations(
     ruleset: Ruleset, criterion: str, domain: str | None, single: bool, form: str, path: str | None
-) -> tuple[str, str]:
-    """The text of a set of situations, and its size in words."""
+) -> tuple[str, tuple[str, int], Sequence[UnreachedGoal]]:
+    """The text of a set of situations, its size in words with the number of goals that it reaches, and the other
+    goals."""
     from sleec_verify.conformance.cases.selection import choose_cases
     from sleec_verify.conformance.cases.writer import json_text, toml
 
     found = choose_cases(ruleset, criterion, domain, single)
     text = (toml if form == "toml" else json_text)(ruleset, criterion, found, path)
-    return text, _in_short(counted(len(found.cases), "situation"), found.reached, len(found.unreached))
+    return text, (counted(len(found.cases), "situation"), found.reached), found.unreached
 
 
 def _scenarios(
     ruleset: Ruleset, criterion: str, domain: str | None, single: bool, form: str, path: str | None
-) -> tuple[str, str]:
+) -> tuple[str, tuple[str, int], Sequence[UnreachedGoal]]:
     """The same, with scenarios."""
     from sleec_verify.conformance.scenarios.selection import choose_scenarios
     from sleec_verify.conformance.scenarios.writer import json_text, toml
 
     found = choose_scenarios(ruleset, criterion, domain, single)
     text = (toml if form == "toml" else json_text)(ruleset, criterion, found, path)
-    return text, _in_short(counted(len(found.scenarios), "scenario"), found.reached, len(found.unreached))
-
-
-def _in_short(found: str, reached: int, unreached: int) -> str:
-    return f"{found}: {reached} of {reached + unreached} goals covered"
+    return text, (counted(len(found.scenarios), "scenario"), found.reached), found.unreached

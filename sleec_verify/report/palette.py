@@ -39,9 +39,12 @@ class Palette:
 
     @classmethod
     def of(cls, stream: TextIO, language: Language = "en") -> Palette:
-        """Colours if `stream` is a terminal that can show them, and NO_COLOR is not set (https://no-color.org)."""
-        wanted = not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
-        return cls(wanted and stream.isatty(), language)
+        """Colours if `stream` is a terminal that can show them. NO_COLOR (https://no-color.org) switches them off, and
+        FORCE_COLOR (https://force-color.org) switches them on for every stream."""
+        if os.environ.get("NO_COLOR"):
+            return cls(False, language)
+        shows = os.environ.get("TERM") != "dumb" and stream.isatty()
+        return cls(shows or bool(os.environ.get("FORCE_COLOR")), language)
 
     def __call__(self, role: str, text: str) -> str:
         """`text` in the colour of `role` (a severity, or good, strong, faint, help, unknown), for `painted`."""

@@ -25,6 +25,11 @@ class UnreachedGoal:
     name: str
     why: str
 
+    @property
+    def is_unknown(self) -> bool:
+        """Whether it is not decided if a situation reaches the goal."""
+        return self.why.startswith("unknown")
+
 
 @dataclass(frozen=True)
 class Cases:

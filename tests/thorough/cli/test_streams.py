@@ -93,6 +93,18 @@ def test_no_colours_in_a_file(clash: str) -> None:
     assert done.returncode == 1
 
 
+@pytest.mark.parametrize(("environment", "coloured"), [({}, True), ({"NO_COLOR": "1"}, False)])
+def test_colours_are_forced_into_a_file(clash: str, environment: dict[str, str], coloured: bool) -> None:
+    env = {name: value for name, value in os.environ.items() if name != "NO_COLOR"} | {
+        "FORCE_COLOR": "1",
+        "TERM": "xterm",
+    }
+    done = subprocess.run(
+        [*COMMAND, "check", clash], capture_output=True, text=True, check=False, env={**env, **environment}
+    )
+    assert ("\033[1;31merror[SLEEC101]" in done.stdout) == coloured
+
+
 def test_closed_pipe_is_no_failure(tmp_path: Path) -> None:
     many = tmp_path / "many.sleec"
     many.write_text("".join(f"OBLIGATION o{i}\n" for i in range(20_000)) + "WHEN t THEN o1\n")
