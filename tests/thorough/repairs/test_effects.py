@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from sleec_runtime.language import load, parse, print_ruleset
 from sleec_runtime.model import Ruleset
 from sleec_verify.checks import run_checks
+from sleec_verify.repairs.numbering import numbered_repairs
 from sleec_verify.repairs.search import RepairSearch
 from sleec_verify.report.repair_phrases import effect_in_words
 from tests.support.effects import changed, said, sampled
@@ -51,13 +52,15 @@ def test_effects_of_random_rules(ruleset: Ruleset, code: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("path", [*SMALL, *STUDIES], ids=lambda path: path.stem)
 def test_effects_of_rules_that_people_write(path: Path) -> None:
-    """Of rules with time, those literals count of which no other window remains."""
+    """Of rules with time, those literals count of which no other window remains. The repairs are those that users see,
+    within the budget of the file."""
     ruleset = load(path)
     results = run_checks(ruleset)
     search = RepairSearch(ruleset, results)
     random = Random(path.stem)
-    for finding in (finding for result in results for finding in result.findings):
-        for repair in search.repairs(finding):
+    findings = [finding for result in results for finding in result.findings]
+    for found in numbered_repairs(findings, search):
+        for repair in (one.repair for one in found.repairs):
             effect = effect_in_words(repair)
             names = said(effect)
             lost, gained = sampled(ruleset, repair.repaired, random, 40)

@@ -21,7 +21,15 @@ WITHOUT_REPAIR: Mapping[str, Mapping[str, int]] = {
     "covidfree": {"SLEEC101": 2, "SLEEC102": 1},
 }
 """In the first one, a check of the rules without the redundant one is unknown."""
-LONG = ("firefighter-initial", "jss_running_example", "Autocar-corrected", "Autocar")
+LONG = (
+    "firefighter-initial",
+    "jss_running_example",
+    "Autocar-corrected",
+    "Autocar",
+    "TABIAT",
+    "covidfree",
+    "firefighter-valid",
+)
 """Files with many issues, or with hard ones."""
 
 
