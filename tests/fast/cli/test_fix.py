@@ -58,7 +58,8 @@ UNLESS NOT asleep IN WHICH CASE call the nurse AND play an alarm
             HIDDEN,
             [
                 (
-                    "not fixed: the exception `UNLESS NOT asleep` of rule `help` never applies; the exception "
+                    "not fixed: the exception `UNLESS NOT asleep` of rule `help` never applies because of the "
+                    "exception `UNLESS asleep`; the exception "
                     "`UNLESS asleep` hides it; --fix SLEEC202:1 would remove the exception `UNLESS NOT asleep` of rule "
                     "`help`"
                 )
@@ -68,7 +69,8 @@ UNLESS NOT asleep IN WHICH CASE call the nurse AND play an alarm
             f"ASSUME NOT (the user falls AND asleep)\nRULE help\n{FALL}\nUNLESS asleep IN WHICH CASE wake the user\n",
             [
                 (
-                    "not fixed: the exception `UNLESS asleep` of rule `help` never applies; "
+                    "not fixed: the exception `UNLESS asleep` of rule `help` never applies because of the "
+                    "ASSUME in line 1; "
                     "`ASSUME NOT (the user falls AND asleep)` hides it; --fix SLEEC202:1 would remove the exception "
                     "`UNLESS asleep` of rule `help`"
                 )

@@ -41,4 +41,4 @@ def test_that_a_dead_hedge_can_go_is_told_with_it(cli: Cli) -> None:
     both = cli("check", "a.sleec", files={"a.sleec": DEAD}).out
     assert "help: correct its condition, or remove it; the rules mean the same without it\n" in both
     one = cli("check", "a.sleec", files={"a.sleec": DEAD_AND_NEEDED}).out
-    assert "help: correct its condition, or remove it\n" in one
+    assert "help: correct its condition or the exception `UNLESS b` and the ASSUME in line 2, or remove it\n" in one

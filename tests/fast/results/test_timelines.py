@@ -86,7 +86,7 @@ RULE s WHEN D THEN B WITHIN 1 minute
 RULE t WHEN D THEN NOT C WITHIN 5 minutes
 """
     words, _, _ = told(text, "r")
-    assert "  instead of `NOT B`, rule `r` requires `C`" in words
+    assert "after 2 minutes, instead of `NOT B`, rule `r` requires `C`" in words
 
 
 def test_the_steps_to_the_finding_tell_of_it_too():
