@@ -99,7 +99,6 @@ def needed_values(
             with as_far_as_decided():
                 less = refuted(kept - {name}) if name in kept else None
                 kept = kept if less is None else less
-    kept |= _of_constant_conditions(situations, rules, kept | lengths, values)
     # Which clause of a rule that names acts decides is a question of its own, and no fact of the refutation.
     naming = [index.ruleset.by_label[label] for label in rules if situations.variant_guards.get(label)]
     kept |= {name for rule in naming for formula in index.formulas(rule) for name in names_of(formula)} & values.keys()
@@ -141,32 +140,6 @@ def names_of_key(instant: Instant, key: Key) -> frozenset[str]:
         calculated = instant.measures.calculations.get(name)
         found.update([name] if calculated is None else calculated.measures)
     return frozenset(found)
-
-
-def _of_constant_conditions(
-    situations: Situations, rules: Collection[str], names: Collection[str], values: Mapping[str, Value]
-) -> set[str]:
-    """The measures of conditions that have one truth for all values of the other measures, such as ``t < 25 OR t >=
-    25``: a comparison of a measure without a value is false."""
-    index = situations.index
-    formulas = list(dict.fromkeys(f for label in rules for f in index.formulas(index.ruleset.by_label[label])))
-    shared = SharedClauses()
-    instant = Instant(shared, index.ruleset.measures, shared.true)
-    literals = [instant.literal(formula) for formula in formulas]
-    instant.settle()
-    found: set[str] = set()
-    with_names = {name: value for name, value in values.items() if name in names}
-    known = [
-        variable if situations.holds(situations.instant.variables[key]) else -variable
-        for key, variable in instant.state().items()
-        if key in situations.instant.variables and names_of_key(instant, key) <= {*names}
-    ]
-    truths = truth_in(Context(frozenset(), with_names), formulas, index.ruleset.measures)
-    with MiniSat(shared.clauses) as solver:
-        for formula, literal, truth in zip(formulas, literals, truths):
-            if solver.solve([*known, literal if truth else -literal]) is False:
-                found |= set(names_of(formula)) & values.keys()
-    return found
 
 
 def _closed(situations: Situations, names: set[str], values: Mapping[str, Value], past: Collection[str]) -> set[str]:
