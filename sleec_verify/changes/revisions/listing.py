@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 import posixpath
 import stat
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple
 
 from sleec_runtime.errors import UnreadableFile
@@ -105,9 +105,12 @@ class CommitListing(NamedTuple):
             GitError: git cannot list or read it.
         """
         found: dict[str, Version] = {}
+        links: dict[str, str | None] | None = None
         for entry in self._entries(path):
             if entry.mode == LINK:
-                found |= self._behind(entry)
+                if links is None:
+                    links = {one.name: one.blob for one in self._entries(".") if one.mode == LINK}
+                found |= self._behind(entry, links)
             elif entry.mode == SUBMODULE:
                 found |= self._in_submodule(entry)
             elif entry.name == path or is_ruleset(entry.name):
@@ -120,17 +123,17 @@ class CommitListing(NamedTuple):
     def _version(self, name: str, entry: Entry) -> Version:
         return Version(f"{self.name}:{name}", entry.blob, content_of(self.folder))
 
-    def _behind(self, link: Entry) -> dict[str, Version]:
-        target = self._resolved(link.name)
+    def _behind(self, link: Entry, links: Mapping[str, str | None]) -> dict[str, Version]:
+        target = self._resolved(link.name, links)
         if target is None or _contains(target, link.name):
             return {}
         below = ((one, link.name + one.name[len(target) :]) for one in self._entries(target))
         files = ((one, name) for one, name in below if one.mode.startswith(FILE))
         return {name: self._version(name, one) for one, name in files if is_ruleset(one.name) and is_ruleset(name)}
 
-    def _resolved(self, path: str) -> str | None:
-        """The path without links in it; None if it leaves the repository, or has too many links."""
-        links = {one.name: one.blob for one in self._entries(".") if one.mode == LINK}
+    def _resolved(self, path: str, links: Mapping[str, str | None]) -> str | None:
+        """The path without `links` in it; None if it leaves the repository, or has too many of them. `links` are the
+        objects of all links of the commit."""
         for _ in range(MOST_LINKS):
             link = next((one for one in (*_parents(path), path) if one in links), None)
             if link is None:
