@@ -46,6 +46,18 @@ def task(robot: Robot, variant: Callable[[Hands], None]) -> Hands:
     return Door("door", sleec, robot.network.transport(), on_problem=robot.problems.append)
 
 
+def monitored(robot: Robot) -> list[str]:
+    """The kinds of the deviations that a monitor of the robot publishes, as they come."""
+    kinds: list[str] = []
+    MonitorNode(
+        Auditor(DOOR, tolerance=0),
+        robot.network.transport(),
+        clock=robot.clock,
+        on_deviation=lambda one: kinds.append(one.kind),
+    )
+    return kinds
+
+
 def both(hands: Hands) -> None:
     hands.refuse()
     hands.open_door()
@@ -62,13 +74,7 @@ MUTANTS = {
 def test_a_report_has_what_was_executed_and_the_monitor_sees_a_swapped_variant(name: str) -> None:
     variant, executed = MUTANTS[name]
     robot = Robot(DOOR)
-    kinds: list[str] = []
-    MonitorNode(
-        Auditor(DOOR, tolerance=0),
-        robot.network.transport(),
-        clock=robot.clock,
-        on_deviation=lambda one: kinds.append(one.kind),
-    )
+    kinds = monitored(robot)
     task(robot, variant)
     robot.report({"Alone": True})
     robot.advance(1)
@@ -82,13 +88,7 @@ def test_a_report_has_what_was_executed_and_the_monitor_sees_a_swapped_variant(n
 
 def test_a_correct_variant_is_no_deviation() -> None:
     robot = Robot(DOOR)
-    kinds: list[str] = []
-    MonitorNode(
-        Auditor(DOOR, tolerance=0),
-        robot.network.transport(),
-        clock=robot.clock,
-        on_deviation=lambda one: kinds.append(one.kind),
-    )
+    kinds = monitored(robot)
     task(robot, lambda hands: hands.refuse())
     robot.report({"Alone": True})
     robot.deliver()
@@ -131,13 +131,7 @@ def test_the_report_of_an_earlier_version_leaves_open_what_was_executed() -> Non
     report = Executed.from_json(text)
     assert (report.due, report.executed) == (("OpenDoor",), None)
     robot = Robot(DOOR)
-    kinds: list[str] = []
-    MonitorNode(
-        Auditor(DOOR, tolerance=0),
-        robot.network.transport(),
-        clock=robot.clock,
-        on_deviation=lambda one: kinds.append(one.kind),
-    )
+    kinds = monitored(robot)
     robot.report({"Alone": False})
     robot.deliver()
     robot.trigger("Ring")
@@ -151,13 +145,7 @@ def test_an_obligation_without_a_callable_is_unrecorded_and_undetermined() -> No
     """The code of the variant acts by itself, so nobody sees which obligation it executes."""
     robot = Robot(DOOR)
     sleec = robot.sleec()
-    kinds: list[str] = []
-    MonitorNode(
-        Auditor(DOOR, tolerance=0),
-        robot.network.transport(),
-        clock=robot.clock,
-        on_deviation=lambda one: kinds.append(one.kind),
-    )
+    kinds = monitored(robot)
 
     class Door(TaskManagerNode):
         @sleec.rule("door")
